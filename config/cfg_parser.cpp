@@ -55,7 +55,7 @@ class CfgReader {
         if (++count_ <= kMaxCfgProblems) problems_.push_back({file_.name, line, std::move(message)});
     }
 
-    /// What a message shows of a line.
+    /// The part of a line that a message shows.
     static std::string_view shown(std::string_view text) {
         constexpr std::size_t kShown = 60;
         if (text.size() <= kShown) return text;

@@ -57,7 +57,7 @@ struct CfgProblem {
     uint32_t line = 0; ///< from 1
     std::string message;
     bool warning = false;     ///< what it concerns is left out, the rest works (a signal of an add-in, say)
-    std::size_t more = 0;     ///< not one problem, but so many that are not told one by one
+    std::size_t more = 0;     ///< not one problem, but the number of those that are not listed
     std::string text() const; ///< "EIO.cfg:12: ..."
 };
 

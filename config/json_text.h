@@ -9,7 +9,7 @@
 
 namespace rapid::config {
 
-/// Throws nlohmann::json::exception. `comments`: they are passed over.
+/// Throws nlohmann::json::exception. `comments`: they are skipped.
 nlohmann::json parseJson(std::string_view text, bool comments = false);
 /// A discarded value when the text is not JSON.
 nlohmann::json tryParseJson(std::string_view text);

@@ -22,7 +22,7 @@ constexpr std::string_view kEnd = ".tmp";
 constexpr std::string_view kRandom = "XXXXXX";
 constexpr int kSuffix = 4; // of kEnd
 
-/// "PID-XXXXXX" behind the mark.
+/// "PID-XXXXXX" after the mark.
 bool isTag(std::string_view text) {
     const size_t dash = text.find('-');
     const auto all = [](std::string_view part, int (*is)(int)) {

@@ -23,7 +23,11 @@ LAYERS = {
     "frontend/project": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "config"],
     "frontend/format": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
                         "frontend/project"],
+    "frontend/query": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
+                       "frontend/format", "frontend/project", "config"],
     "frontend/lint": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/project"],
+    "frontend/workspace": ["frontend/source", "frontend/diag", "frontend/syntax", "frontend/sema", "frontend/edit",
+                           "frontend/project", "frontend/format", "frontend/lint", "config"],
     "ir/core": [],
     "ir/verify": ["ir/core"],
     "ir/text": ["ir/core", "ir/verify"],
@@ -54,8 +58,10 @@ LAYERS = {
     "stdlib/impl": ["runtime/", "stdlib", "config"],
     # main of built executables: no part of the compiler
     "tools/program_main": ["runtime/", "stdlib"],
-    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
-    "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools"],
+    # the language server: what the runtime and the standard library know is handed in
+    "tools/lsp": ["config", "frontend/"],
+    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp"],
+    "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
 }
 
 # Headers that cost every file that sees them much compile time, or that belong to one part: the only layers and files that
@@ -77,7 +83,8 @@ RESTRICTED = [
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
-      "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp", "tests"],
+      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",
+      "tools/rapidc/dap/messages.h", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
 ]

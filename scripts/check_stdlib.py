@@ -151,7 +151,7 @@ class Checker:
                 doc, attrs = [], []
 
     def attributes(self, place, lines):
-        """`key: value` pairs, several a line apart by three spaces; a line without a key goes on with the last."""
+        """`key: value` pairs, several a line apart by three spaces; a line without a key continues the last."""
         found = {}
         last = None
         for line in lines:
@@ -349,7 +349,7 @@ class Checker:
             self.offence(table, f"{name}: order of parameters differs")
 
     def listing(self, program, rows):
-        """What `rapidc builtins` says of the names."""
+        """The output of `rapidc builtins`, by name."""
         run = subprocess.run([program, "builtins", "--format=tsv"], capture_output=True, text=True, check=False)
         lines = [line.split("\t") for line in run.stdout.splitlines()]
         if run.returncode != 0 or not lines or lines[0] != ["name", "kind", "chapter", "status"]:

@@ -12,8 +12,8 @@ import sys
 # (pattern, what to write instead), applied to comments, strings and prose
 HABITS = [
     (r"\b(told|tells)\b", "reported, reports, gives"),
-    (r"\bbehind\b", "after"),
-    (r"\bahead of\b", "before"),
+    (r"\bbehind\b(?! (axis|the lower arm|\(1\)))", "after"),  # in space it is correct
+    (r"\bahead of\b(?! time)", "before"),
     (r"\b(goes|go|going) on\b", "continues, continue"),
     (r"\bstands for\b", "means, represents"),
     (r"\bstands\b", "is"),
@@ -22,16 +22,16 @@ HABITS = [
     (r"\breplace[sd]? [^.;]{1,40} by\b", "replace ... with"),
     (r"\bchanged places\b", "are swapped"),
     (r"\bon every way\b", "on every path"),
-    (r"\bmend(s|ed)?\b", "correct"),
+    (r"\bmend(s|ed|ing)?\b", "correct"),
     (r"\bpassed over\b", "skipped"),
     (r"(?:^|[.!?] )(What|Who|Where) [^?]*\.(?: |$)", "a sentence with the subject first"),
 ]
-PATTERNS = [(re.compile(pattern), instead) for pattern, instead in HABITS]
+PATTERNS = [(re.compile(pattern, 0 if "What" in pattern else re.IGNORECASE), instead) for pattern, instead in HABITS]
 
 CODE = (".cpp", ".h", ".def", ".py", ".cmake", ".sysx", ".modx")
 PROSE = (".md",)
 # Texts about the habits themselves, and records of the past.
-EXEMPT = ("docs/style.md", "scripts/check_wording.py", "docs/decisions.md", "CHANGELOG.md")
+EXEMPT = ("docs/style.md", "scripts/check_wording.py", "CHANGELOG.md")
 
 
 def git(*arguments):

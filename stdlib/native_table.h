@@ -9,7 +9,7 @@
 namespace rt {
 
 enum class NativeKind : uint8_t { Instruction, Function };
-/// Native: C++ behind `symbol`. Compiler: the compiler makes the code itself. Rapid: has a body in its
+/// Native: the C++ function `symbol`. Compiler: the compiler makes the code itself. Rapid: has a body in its
 /// declaration.
 enum class NativeForm : uint8_t { Native, Compiler, Rapid };
 

@@ -1,11 +1,11 @@
 #pragma once
-// What an executable that links the standard library gives to its controller.
+// The services that an executable with the standard library adds to its controller.
 
 namespace rt {
 
 class Controller;
 
-/// Tells the event log the names of the errors, and the controller what the standard library keeps between two processes. A
+/// Gives the event log the names of errors, and the controller the state that the library keeps between two processes. A
 /// ControllerSetup for runProgram.
 void setUpStandardLibrary(Controller& controller);
 

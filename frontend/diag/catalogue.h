@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue behind diagnostics.def: severity, number of arguments and text of every code.
+// The catalogue of diagnostics.def: severity, number of arguments and text of every code.
 
 #include "frontend/diag/diagnostic.h"
 
@@ -23,7 +23,7 @@ const CatalogueEntry* findEntry(uint16_t number);
 /// The name as words: "Missing semicolon".
 std::string title(const CatalogueEntry& entry);
 
-/// The name in words, as it stands in comments, project files and on the command line: "unused-variable".
+/// The name in words, as comments, project files and the command line use it: "unused-variable".
 std::string kebabName(const CatalogueEntry& entry);
 
 /// Warnings can be switched off or made errors by their names; errors and notes cannot.

@@ -38,13 +38,16 @@ namespace say {
 /// The arguments of a message with N of them, N > 0: `{a, b}`.
 template <size_t N> using MessageArgs = const std::string (&)[N];
 
+/// Identifies the report of a mistake within one check. Reports of one mistake are merged by it.
+enum class CauseId : uint32_t { None = 0 };
+
 struct Diagnostic {
     struct Note {
         std::shared_ptr<const SourceFile> file;
         SourceRange range;
         std::string message;
     };
-    /// A way to mend it: all edits together, in the file of the diagnostic.
+    /// A way to correct it: all edits together, in the file of the diagnostic.
     struct Fix {
         std::string message; ///< "write ':='"; lower-case start, no full stop
         std::vector<TextEdit> edits;
@@ -52,16 +55,16 @@ struct Diagnostic {
     };
     Code code{};
     Severity severity = Severity::Error;
-    uint32_t cause =
-        0; ///< of a check: the mistake it is about, for the last pass over the diagnostics; 0: not known
+    CauseId cause = CauseId::None; ///< of a check: for the last pass over the diagnostics
     std::shared_ptr<const SourceFile>
         file; ///< may be null: a message about the command line or a missing file
     SourceRange range;
-    std::string message; ///< lower-case start, one sentence, no full stop
+    std::string message;           ///< lower-case start, one sentence, no full stop
+    std::vector<std::string> args; ///< {0}, {1}, ... of the message
     std::vector<Note> notes;
     std::vector<Fix> fixes;
 
-    /// Adds a fix that replaces `place` (empty: inserts) by `replacement` (empty: removes it) and words it.
+    /// Adds a fix, with its text: replaces `place` (empty: inserts) with `replacement` (empty: removes it).
     Diagnostic& fix(SourceRange place, std::string replacement, bool certain = true);
 };
 

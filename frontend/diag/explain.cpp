@@ -90,13 +90,13 @@ std::string toLatin1(std::string_view utf8) {
     return bytes;
 }
 
-/// Puts the number `n` wherever `sign` stands.
+/// Puts the number `n` in each place of `sign`.
 void number(std::string& line, std::string_view sign, int n) {
     for (size_t at = 0; (at = line.find(sign, at)) != std::string::npos;)
         line.replace(at, sign.size(), std::to_string(n));
 }
 
-/// A line of a file, or all for which it stands.
+/// A line of a file, or all lines that it represents.
 std::string linesOf(std::string_view line) {
     constexpr std::string_view kRepeat = "(N = 1 to ";
     const size_t repeat = line.rfind(kRepeat);

@@ -1,5 +1,5 @@
 #pragma once
-// What diagnostics mean, with a wrong and a right example: `rapidc explain`, and the help of editors. The words are in
+// Explanations of diagnostics, each with a wrong and a right example: `rapidc explain`, and the help of editors. The words are in
 // docs/diagnostics, one page for each code; the build embeds them.
 
 #include <cstdint>
@@ -25,8 +25,8 @@ enum class ExampleKind : uint8_t {
     ///       ENDMODULE
     ///     cell/secret.mod (bytes FC 86 41):
     ///
-    /// What stands in a file is indented by two spaces. `(ISO 8859-1)` names the encoding of a file. A line that ends with
-    /// `(N = 1 to 600)` stands for so many; in it, `<N>` and `<N+1>` are their numbers.
+    /// The contents of a file are indented by two spaces. `(ISO 8859-1)` names the encoding of a file. A line that ends with
+    /// `(N = 1 to 600)` represents so many; in it, `<N>` and `<N+1>` are their numbers.
     Files
 };
 
@@ -66,7 +66,7 @@ std::string messageOf(const CatalogueEntry& entry);
 /// The name of a warning and how it is switched off; empty for what cannot be.
 std::string switchingOf(const CatalogueEntry& entry);
 
-/// What a range of numbers is about: "names and types".
+/// The subject of a range of numbers: "names and types".
 std::string_view areaOf(uint16_t number);
 
 /// A page of docs/diagnostics, Markdown: one for each code, and `README.md`, which lists them. Title, severity, message and

@@ -11,7 +11,7 @@ namespace rapid::diag {
 
 namespace {
 
-/// White space that stands in a message as it stands in the text would tell nothing.
+/// White space would not be visible in a message.
 std::string quoted(std::string_view text) {
     constexpr size_t kLongest = 40;
     if (text.size() > kLongest || text.find_first_of("\r\n\t") != std::string_view::npos) return "this";
@@ -32,12 +32,12 @@ Diagnostic& Diagnostic::fix(SourceRange place, std::string replacement, bool cer
     const std::string_view old =
         file ? file->text().substr(place.begin, place.end - place.begin) : std::string_view();
     const std::string_view fresh = withoutSpaces(replacement);
-    // Spaces of other kinds look like those they are replaced by.
+    // Spaces of other kinds look like plain ones.
     const bool odd = std::all_of(old.begin(), old.end(), [](char c) { return (c & 0x80) != 0; });
     std::string words = old.empty()     ? "insert " + quoted(fresh)
                         : fresh.empty() ? !odd || replacement.empty() ? "remove " + quoted(withoutSpaces(old))
                                                                       : "write a plain space"
-                                        : fmt::format("replace {} by {}", quoted(old), quoted(fresh));
+                                        : fmt::format("replace {} with {}", quoted(old), quoted(fresh));
     Fix one;
     one.message = std::move(words);
     one.certain = certain;
@@ -58,6 +58,7 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
     diagnostic.file = file;
     diagnostic.range = range;
     if (entry) diagnostic.message = formatText(entry->text, args);
+    diagnostic.args.assign(args.begin(), args.end());
     return diagnostic;
 }
 
@@ -114,7 +115,7 @@ void Sink::absorb(Sink& other) {
 }
 
 std::vector<Diagnostic> Sink::sorted() const {
-    // A "too many errors" note is about the whole file and stays behind its last error.
+    // A "too many errors" note is about the whole file and stays after its last error.
     const auto key = [this](size_t i) {
         const Diagnostic& d = all_[i];
         return std::make_tuple(d.file ? std::string_view(d.file->path()) : std::string_view(),
@@ -127,7 +128,7 @@ std::vector<Diagnostic> Sink::sorted() const {
     std::vector<Diagnostic> result;
     result.reserve(all_.size());
     for (const size_t i : order) {
-        // A module that several tasks share is checked in each of them; its mistakes are told once.
+        // A module that several tasks share is checked in each of them; its mistakes are reported once.
         const Diagnostic& d = all_[i];
         const bool again = !result.empty() && d.file && result.back().file && d.code == result.back().code &&
                            d.range == result.back().range && d.message == result.back().message &&

@@ -121,7 +121,7 @@ EditResult applyEdits(const SourceFile& file, std::span<const TextEdit> edits) {
             fmt::format("'{}' has no place in ISO 8859-1, the encoding of this file; write other words, or "
                         "save the file as UTF-8 (.modx, .sysx) first",
                         unfit));
-    // For example the last letter that told ISO 8859-1 from UTF-8 may be gone.
+    // For example, the last letter that distinguished ISO 8859-1 from UTF-8 may be gone.
     const SourceFile again(file.path(), bytes);
     if (again.isBinary() || again.text() != expected.bytes)
         return refuse(

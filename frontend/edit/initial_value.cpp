@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// Why `value` cannot stand behind `:=`; empty when it can.
+/// Why `value` is not allowed after `:=`; empty when it is.
 std::string findMistake(std::string_view value) {
     if (value.empty()) return "the value is empty: expected an expression such as 5 or [1,0,0,0]";
     if (value.find_first_of("\r\n") != std::string_view::npos)
@@ -39,7 +39,8 @@ std::string findMistake(std::string_view value) {
             parsed.tree->tokens[last - 1].offset + parsed.tree->tokens[last - 1].length < value.size();
         return comment ? "the value ends with a comment: expected an expression alone" : "";
     }
-    return fmt::format("'{}' is no value: {}", value, sink.all().empty() ? "" : sink.all().front().message);
+    return fmt::format("'{}' is not a value: {}", value,
+                       sink.all().empty() ? "" : sink.all().front().message);
 }
 
 struct Found {
@@ -84,7 +85,7 @@ EditSet setInitialValue(const SyntaxTree& tree, std::string_view path, std::stri
         const SourceRange old = edit.range;
         if (tree.source->text().substr(old.begin, old.end - old.begin) == value) return {};
     } else if (tree.tokens[data.last].kind != TokenKind::Semicolon || data.init) {
-        return refuse(fmt::format("the declaration of '{}' has a mistake: mend it first", path));
+        return refuse(fmt::format("the declaration of '{}' has a mistake: correct it first", path));
     } else {
         const uint32_t end = tree.range(data.last - 1).end;
         edit = {{end, end}, ":=" + std::string(value)};

@@ -10,7 +10,7 @@ namespace rapid::edit {
 /// outside of its routines. `path` is DATA or MODULE.DATA, in any case. Where there is no initial value yet, `:=` and the value
 /// are inserted. An equal text gives no edit.
 ///
-/// Problems: no such data; several of that name; a value that is no expression, or several lines. Whether the value
+/// Problems: no such data; several of that name; a value that is not an expression, or several lines. Whether the value
 /// fits the type is for the checker to say.
 EditSet setInitialValue(const syntax::SyntaxTree& tree, std::string_view path, std::string_view value);
 

@@ -37,7 +37,7 @@ bool isConfigured(const Symbol& symbol) {
            static_cast<const sema::DataSymbol&>(symbol).storage == sema::Storage::Signal;
 }
 
-/// Predefined names and configured objects have no place in the files of the program: their name stands for it.
+/// Predefined names and configured objects have no place in the files of the program: their name represents it.
 bool isOutside(const Symbol& symbol) {
     return symbol.predefined || isConfigured(symbol) || !symbol.module;
 }
@@ -73,30 +73,7 @@ size_t characters(std::string_view name) {
         name.begin(), name.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-std::string checkNewName(std::string_view name, const sema::CheckedProgram& program) {
-    const std::string text(name);
-    const LexResult lexed = lex(text);
-    const bool word =
-        lexed.tokens.size() == 2 && lexed.errors.empty() && lexed.tokens[0].length == name.size();
-    if (word && isKeyword(lexed.tokens[0].kind))
-        return fmt::format("'{}' is a word of the language: choose another name", name);
-    if (!word || lexed.tokens[0].kind != TokenKind::Identifier)
-        return fmt::format("'{}' is no name: expected letters, digits and '_', a letter first", name);
-    if (characters(name) > kMaxNameLength)
-        return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
-    const std::string folded = sema::foldName(name);
-    for (const sema::Module* module : program.predefinedModules) {
-        const auto has = [&](const auto& symbols) {
-            return std::any_of(symbols.begin(), symbols.end(),
-                               [&](const auto* symbol) { return sema::foldName(symbol->name) == folded; });
-        };
-        if (has(module->types) || has(module->data) || has(module->routines))
-            return fmt::format("'{}' is predefined: choose another name, so that it is not hidden", name);
-    }
-    return {};
-}
-
-/// What the names of a program mean, without the program: a large one does not stay in memory while it is checked again.
+/// The meaning of the names of a program, without the program: a large one does not stay in memory during the second check.
 class Meanings {
   public:
     /// A name and the declaration it means, of which `place` is the file or, outside of the files, the name itself.
@@ -141,7 +118,7 @@ class Renamer {
         : tasks_(tasks), options_(options), path_(path), newName_(newName) {}
 
     EditSet run(std::unique_ptr<const sema::CheckedProgram> program) {
-        if (std::string bad = checkNewName(newName_, *program); !bad.empty()) return refuse(std::move(bad));
+        if (std::string bad = newNameProblem(newName_, *program); !bad.empty()) return refuse(std::move(bad));
         auto references = sema::collectReferences(*program);
         if (std::string bad = choose(*program, references); !bad.empty()) return refuse(std::move(bad));
         collectEdits(references);
@@ -187,7 +164,7 @@ class Renamer {
         const Symbol& first = *found.begin()->second;
         const bool shared = std::all_of(found.begin(), found.end(),
                                         [](const auto& entry) { return isSharedPersistent(*entry.second); });
-        // Loops of one routine may have variables of the same name, which no path tells apart.
+        // Loops of one routine may have variables of the same name, which a path cannot distinguish.
         const bool same = std::all_of(found.begin(), found.end(), [&](const auto& entry) {
             return entry.first.path == found.begin()->first.path &&
                    foldedPathOf(*entry.second) == foldedPathOf(first);
@@ -379,6 +356,30 @@ class Renamer {
 };
 
 } // namespace
+
+std::string newNameProblem(std::string_view name, const sema::CheckedProgram& program, bool component) {
+    const std::string text(name);
+    const LexResult lexed = lex(text);
+    const bool word =
+        lexed.tokens.size() == 2 && lexed.errors.empty() && lexed.tokens[0].length == name.size();
+    if (word && isKeyword(lexed.tokens[0].kind))
+        return fmt::format("'{}' is a word of the language: choose another name", name);
+    if (!word || lexed.tokens[0].kind != TokenKind::Identifier)
+        return fmt::format("'{}' is not a name: expected letters, digits and '_', a letter first", name);
+    if (characters(name) > kMaxNameLength)
+        return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
+    if (component) return {};
+    const std::string folded = sema::foldName(name);
+    for (const sema::Module* module : program.predefinedModules) {
+        const auto has = [&](const auto& symbols) {
+            return std::any_of(symbols.begin(), symbols.end(),
+                               [&](const auto* symbol) { return sema::foldName(symbol->name) == folded; });
+        };
+        if (has(module->types) || has(module->data) || has(module->routines))
+            return fmt::format("'{}' is predefined: choose another name, so that it is not hidden", name);
+    }
+    return {};
+}
 
 EditSet rename(std::unique_ptr<const sema::CheckedProgram> program, const std::vector<sema::TaskInput>& tasks,
                const sema::CheckOptions& options, std::string_view path, std::string_view newName) {

@@ -52,7 +52,7 @@ std::string withCodes(std::string_view text) {
     return out;
 }
 
-/// Replaces literals of the old value by those of the new one.
+/// Replaces literals of the old value with those of the new one.
 class LeafWriter {
   public:
     LeafWriter(const SyntaxTree& oldTree, const SyntaxTree& newTree, bool codes, std::vector<TextEdit>& edits)
@@ -108,7 +108,7 @@ std::string addEdits(const SyntaxTree& tree, const Declarations& declared, const
     diag::Sink sink;
     const auto source = std::make_shared<const SourceFile>("value.modx", value.value);
     const ParsedExpr parsed = parseExpression(source, sink);
-    if (!sink.all().empty()) return fmt::format("'{}' is no value", value.value);
+    if (!sink.all().empty()) return fmt::format("'{}' is not a value", value.value);
     std::vector<TextEdit> own;
     LeafWriter writer(tree, *parsed.tree, codes, own);
     if (!writer.write(*found->second->init, *parsed.expr))

@@ -5,11 +5,11 @@
 
 namespace rapid::format {
 
-/// Whether one space stands at a place; Keep: as the writer did.
+/// Whether a place has one space; Keep: as written.
 enum class Spacing : uint8_t { Tight, Spaced, Keep };
 /// After a comma. Arguments: spaced in lists of arguments, parameters and values, tight in [ ] and { }.
 enum class CommaSpacing : uint8_t { Tight, Arguments, Spaced, Keep };
-/// Where the label of a GOTO stands.
+/// Position of the label of a GOTO.
 enum class LabelPlace : uint8_t { FirstColumn, Code };
 enum class KeywordCase : uint8_t { Upper, Lower, Keep };
 /// Canonical: predefined names are spelt as their declarations.

@@ -187,7 +187,7 @@ std::string refusal(const SyntaxTree& tree, const std::vector<SourceRange>& erro
 
 constexpr uint32_t kFirstReach = 16; // bytes
 
-/// Where the text would mean something else after the edits, or could not be changed so; no value: nowhere.
+/// The place where the text would mean something else after the edits, or could not be changed so; no value: none.
 std::optional<SourceRange> changeOfMeaning(const SyntaxTree& tree, const std::vector<TextEdit>& edits,
                                            const FormatRequest& request, bool nodes) {
     const auto changed = edit::applyEditsToText(tree.source->text(), edits);
@@ -216,7 +216,7 @@ FormatResult format(const SyntaxTree& tree, const std::vector<SourceRange>& erro
     result.problem = refusal(tree, errors, request.keepErrors);
     if (!result.ok()) return result;
     if (tree.tokens.size() == 1 && tree.modules.empty()) return result; // nothing but comments
-    // A mistake, or an instruction that goes on outside of the range, may be read in another way when something near
+    // A mistake, or an instruction that continues outside of the range, may be read in another way when something near
     // it moves. Then that part is left as it is too.
     const bool partly = !errors.empty() || request.firstLine > 1 || request.lastLine != UINT32_MAX;
     std::vector<SourceRange> untouched = errors;

@@ -42,7 +42,7 @@ class Layout {
     struct Bracket {
         uint32_t column = 0;  ///< of the bracket
         bool hanging = false; ///< nothing follows it on its line
-        Indent line;          ///< of the line it stands in
+        Indent line;          ///< of its line
     };
     struct State {
         std::vector<Bracket> brackets;
@@ -54,7 +54,7 @@ class Layout {
         size_t atom = 0;
         size_t depth = 0;
     };
-    /// A comment behind code, or one below that which continues it.
+    /// A comment after code, or one below that continues it.
     struct SideComment {
         size_t atom = 0;
         uint32_t line = 0;      ///< in the new text
@@ -156,7 +156,7 @@ class Layout {
         const Token& token = tree_.tokens[t];
         uint32_t width =
             (space ? 1 : 0) + displayWidth(tree_.source->text().substr(token.offset, token.length));
-        // What follows without a space stays with it.
+        // A token that follows without a space stays with it.
         for (TokenIndex next = t + 1; next < tree_.tokens.size(); ++next) {
             const K kind = tree_.tokens[next].kind;
             if (kind != K::Comma && kind != K::Semicolon && !closes(next)) break;
@@ -235,7 +235,7 @@ class Layout {
         return beginsOldLine && inside.column > atoms_[word].column;
     }
 
-    /// A comment alone in its line, straight below one behind code.
+    /// A comment alone in its line, straight below one after code.
     bool continuesSideComment() const {
         return !sides_.empty() && sides_.back().atom + 1 == at_ && atom().newlines == 1 &&
                atom().column == sides_.back().oldColumn && atom().column > 0;
@@ -247,7 +247,7 @@ class Layout {
         sides_.push_back(side);
     }
 
-    /// Comments behind code that stood in one column in neighbouring lines do so again.
+    /// Comments after code that were in one column in neighbouring lines are aligned again.
     void alignComments() {
         for (size_t begin = 0; begin < sides_.size();) {
             size_t end = begin + 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Where every token and comment goes: the white space before each atom.
+// The position of every token and comment: the white space before each atom.
 
 #include "frontend/format/atoms.h"
 #include "frontend/format/line_plan.h"

@@ -231,7 +231,7 @@ class Leveller {
     uint16_t lineLevel_ = 0;
 };
 
-/// Marks the tokens of declarations in which something of `broken` lies, and stray semicolons behind them.
+/// Marks the tokens of declarations that overlap `broken`, and stray semicolons after them.
 void markBroken(const SyntaxTree& tree, const std::vector<SourceRange>& broken,
                 std::vector<TokenPlan>& plan) {
     for (const ModuleDecl* module : tree.modules)

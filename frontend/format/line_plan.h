@@ -1,5 +1,5 @@
 #pragma once
-// Tree -> what each token means for the layout: does it begin a line, at which level, what stands beside it.
+// Tree -> meaning of each token for the layout: whether it begins a line, at which level, and its neighbours.
 
 #include "frontend/format/format_settings.h"
 #include "frontend/syntax/ast.h"
@@ -11,7 +11,7 @@ namespace rapid::format {
 enum class LineBreak : uint8_t {
     Keep,  ///< on a line of its own where it was
     Must,  ///< begins a line
-    Never, ///< stands behind the token before, unless a comment keeps it away
+    Never, ///< directly after the token before, unless a comment keeps it away
 };
 
 /// Facts about one token, as bits.
@@ -29,14 +29,14 @@ enum TokenFlag : uint16_t {
     kLowerWord = 1024,       ///< switch
     kNameUse = 2048,         ///< a name that may be predefined
     kListComma = 4096,       ///< a comma in [ ] or { }
-    kVerbatim = 8192,        ///< stands in a part with mistakes: left as it is
+    kVerbatim = 8192,        ///< in a part with mistakes: left as it is
     kEmptyStatement = 16384, ///< a semicolon too many
     kLabel = 32768           ///< first token of a label
 };
 
 struct TokenPlan {
     LineBreak lineBreak = LineBreak::Keep;
-    bool hasLevel = false;  ///< on a line of its own it stands at `level`, else as a continuation
+    bool hasLevel = false;  ///< on a line of its own it is at `level`, else indented as a continuation
     bool endsBlock = false; ///< END word, ELSE, CASE, ERROR ...: comments before it may belong to the block
     uint16_t flags = 0;
     uint16_t level = 0;

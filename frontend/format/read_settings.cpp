@@ -17,7 +17,7 @@ namespace {
 namespace say = diag::say;
 using project::Setting;
 
-/// What one setting takes and where it goes.
+/// The values that one setting takes, and the member that stores it.
 struct Entry {
     enum class Kind : uint8_t { Number, Switch, Word };
     std::string_view name;

@@ -1,4 +1,4 @@
-// Calls: arguments, interrupts, movements and the waits behind them.
+// Calls: arguments, interrupts, movements and the waits after them.
 
 #include "frontend/lint/walker.h"
 
@@ -46,7 +46,7 @@ const BoundCall* Walker::find(const Node& node) const {
     return found == module_->facts->calls.end() ? nullptr : &found->second;
 }
 
-/// A call by name; whether the instruction behind it can be reached.
+/// A call by name; whether the instruction after it can be reached.
 bool Walker::call(const Node& node, std::span<Argument* const> args) {
     const BoundCall* bound = find(node);
     if (!bound || !bound->routine) {
@@ -137,7 +137,7 @@ void Walker::usesNames() {
     written_.set();
 }
 
-/// What the call means for the flow of control; whether the instruction behind it can be reached.
+/// The effect of the call on the flow of control; whether the instruction after it can be reached.
 bool Walker::conduct(const BoundCall& call) {
     const RoutineSymbol& routine = *call.routine;
     if (routine.traits.has(sema::Trait::CallsByName)) facts_.callsByName = true;
@@ -198,7 +198,7 @@ const MoveParams& Walker::moveParams(const RoutineSymbol& routine) {
     return out;
 }
 
-// Manual 2.3 (logic behind a fly-by point) and 5 (no zone 0 above 70 mm/s). Speeds and zones that the program changes
+// Manual 2.3 (logic after a fly-by point) and 5 (no zone 0 above 70 mm/s). Speeds and zones that the program changes
 // are not known here.
 void Walker::movement(const BoundCall& call) {
     constexpr double kSmallestZone = 0.5; // mm: z0 has 0.3, z1 has 1

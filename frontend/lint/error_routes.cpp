@@ -54,13 +54,18 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 } // namespace
 
+bool ErrorRoutes::Routine::canRaise(const Error& error) const {
+    return (divides && error.languageError == sema::LanguageError::Divisor) ||
+           has(fromNatives, upper(error.name));
+}
+
 ErrorRoutes::Error ErrorRoutes::errorOf(const Expr& number, const sema::Module& module) {
     Error error;
     error.where = module.tree->range(number);
     error.name = std::string(
         module.tree->source->text().substr(error.where.begin, error.where.end - error.where.begin));
     const DataSymbol* data = named(number, module);
-    if (data != nullptr) error.meaning = data->meaning;
+    if (data != nullptr) error.meaning = data->meaning, error.languageError = data->languageError;
     const sema::ConstValue* value = (*module.exprs)[number.id].constant;
     if (value != nullptr && value->kind == sema::ConstValue::Kind::Number)
         error.number = value->number;
@@ -112,8 +117,7 @@ void ErrorRoutes::body(const Node& node, const sema::Module& module, Routine& ou
     } else if (node.kind == NodeKind::Binary) {
         const BinaryOp op = as<BinaryExpr>(node).op;
         if (op == BinaryOp::Div || op == BinaryOp::IntDiv || op == BinaryOp::Mod)
-            if ((*module.exprs)[as<BinaryExpr>(node).right->id].constant == nullptr)
-                out.fromNatives.emplace_back("ERR_DIVZERO");
+            if ((*module.exprs)[as<BinaryExpr>(node).right->id].constant == nullptr) out.divides = true;
     }
     forEachChild(node, [&](const Node& child) { body(child, module, out); });
 }
@@ -156,8 +160,8 @@ bool ErrorRoutes::isListed(const Error& error) const {
 }
 
 /// The handler of the caller may be there for an error of its own instructions, or one that a handler passes on to it.
-bool ErrorRoutes::hasOtherSource(const Routine& caller, const std::string& name) const {
-    if (caller.callsByName || has(caller.fromNatives, name)) return true;
+bool ErrorRoutes::hasOtherSource(const Routine& caller, const Error& error) const {
+    if (caller.callsByName || caller.canRaise(error)) return true;
     return std::any_of(caller.calls.begin(), caller.calls.end(), [&](const Call& call) {
         const Routine* callee = find(call.callee);
         return callee == nullptr || callee->passesOn;
@@ -179,9 +183,8 @@ bool ErrorRoutes::find(const Routine& routine, const Routine& caller, Lost& lost
         return true;
     }
     for (const Error& wanted : caller.handled) {
-        const std::string name = upper(wanted.name);
-        if (!has(routine.fromNatives, name) || wanted.meaning == sema::Meaning::CommonError ||
-            isListed(wanted) || hasOtherSource(caller, name))
+        if (!routine.canRaise(wanted) || wanted.meaning == sema::Meaning::CommonError || isListed(wanted) ||
+            hasOtherSource(caller, wanted))
             continue;
         lost.raiser = &routine;
         lost.error = &wanted;

@@ -19,6 +19,7 @@ class ErrorRoutes {
         const sema::Symbol* variable = nullptr; ///< a booked number in module data; null: `number`
         double number = 0;
         sema::Meaning meaning = sema::Meaning::None;
+        sema::LanguageError languageError = sema::LanguageError::None;
         std::string name; ///< as written
         SourceRange where;
         bool isSame(const Error& other) const {
@@ -35,13 +36,15 @@ class ErrorRoutes {
         bool passesOn = false; ///< its handler raises
         bool takesAll = false; ///< its handler has no list and does not look at ERRNO
         bool callsByName = false;
+        bool divides = false;       ///< by something that may be 0
         std::vector<Error> handled; ///< that it compares ERRNO with
         std::vector<Error> raised;  ///< by RAISE in the body
         std::vector<std::string>
             fromNatives; ///< names of the errors that instructions in the body can raise, in upper case
-        std::vector<Call> calls; ///< of routines of the program, in the body
+        std::vector<Call> calls;                 ///< of routines of the program, in the body
+        bool canRaise(const Error& error) const; ///< by instructions in the body
     };
-    /// What the routines that a call leads to, through routines without handler, cannot pass on.
+    /// The errors that the routines which a call leads to, through routines without handler, cannot pass on.
     struct Lost {
         const Routine* raiser = nullptr;
         const Error* error = nullptr;     ///< raised by RAISE; null: by an instruction
@@ -53,7 +56,7 @@ class ErrorRoutes {
     static Error errorOf(const syntax::Expr& number, const sema::Module& module);
     const Routine* find(const sema::RoutineSymbol* symbol) const;
     bool find(const Routine& routine, const Routine& caller, Lost& lost) const;
-    bool hasOtherSource(const Routine& caller, const std::string& name) const;
+    bool hasOtherSource(const Routine& caller, const Error& error) const;
     bool isListed(const Error& error) const;
 
     std::vector<Routine> routines_;

@@ -143,7 +143,7 @@ void Walker::judgeFraction(const Expr& other, const Expr& value, SourceRange whe
         .push_back({data, *number(value), tree_, where, std::move(operation), text(value)});
 }
 
-/// Remembers the fractions in a constant that data gets. Of parts of data it is not told which.
+/// Remembers the fractions in a constant that data gets. Of parts of data the part is not recorded.
 void Walker::setFrom(const DataSymbol& data, const Expr& value) {
     const bool inside = isOwn(data) && data.storage != sema::Storage::Parameter;
     const ConstValue* known = constant(value);

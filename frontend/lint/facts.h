@@ -1,5 +1,5 @@
 #pragma once
-// What the walks over routines find out for the judgements about the whole task. Internal to frontend/lint.
+// Facts that the walks over routines collect for the judgements about the whole task. Internal to frontend/lint.
 
 #include "frontend/lint/warnings.h"
 #include "frontend/sema/checked.h"
@@ -39,7 +39,7 @@ class Reporter {
     std::set<std::tuple<Code, std::string, uint32_t>> reported_;
 };
 
-/// What a call of a routine can bring about, seen through all calls in it.
+/// The possible effects of a call of a routine, through all calls in it.
 enum Conduct : uint8_t {
     kWaits = 1,  ///< it can wait: for a time, a signal, a movement, somebody
     kEnds = 2,   ///< it can end what calls it: EXIT, RAISE, Stop ...
@@ -90,7 +90,7 @@ struct TaskFacts {
     bool dataByName = false;                           ///< GetDataVal and the like: any data may be used
 };
 
-/// Calls `visit` for the numbers in a constant that are no integers; of large constants for the first ones.
+/// Calls `visit` for the numbers in a constant that are not integers; of large constants for the first ones.
 template <class Visit> void forEachFraction(const sema::ConstValue& value, const Visit& visit) {
     constexpr size_t kMost = 32;
     if (value.kind == sema::ConstValue::Kind::Number && value.number != std::floor(value.number))

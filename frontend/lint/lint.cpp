@@ -242,7 +242,7 @@ class TaskLint {
     std::optional<std::unordered_set<std::string>> texts_; ///< names in strings, once they are asked for
 };
 
-/// What the routines do, together with all that they call: from the callees to the callers.
+/// The effects of routines, together with all that they call: from the callees to the callers.
 std::unordered_map<const RoutineSymbol*, uint8_t> TaskLint::wholeConduct() const {
     std::unordered_map<const RoutineSymbol*, uint8_t> conduct;
     std::unordered_map<const RoutineSymbol*, std::vector<const RoutineSymbol*>> callers;
@@ -306,7 +306,7 @@ void TaskLint::interrupts() {
     }
 }
 
-/// What routines keep in data of their own is no concern of other files, which may forget these symbols.
+/// Data of routines are not used by other files, which may forget these symbols.
 void TaskLint::interruptsOfRoutines() {
     const auto isOwn = [](const Symbol* symbol) {
         return symbol->kind == SymbolKind::Data && static_cast<const DataSymbol*>(symbol)->routine != nullptr;
@@ -359,7 +359,7 @@ void TaskLint::data(const DataSymbol& data) {
     report(say::UnusedVariable, data, {kind, data.name});
 }
 
-/// `\switch on | switch off`: a look at one of them tells which it is.
+/// `\switch on | switch off`: checking one of them decides both.
 bool otherAlternativeRead(const RoutineSymbol& routine, const DataSymbol& param) {
     if (!param.isSwitch) return false;
     return std::any_of(routine.params.begin(), routine.params.end(),
@@ -405,7 +405,8 @@ bool TaskLint::isOnlyForCallers(const RoutineSymbol& routine) {
 
 void TaskLint::rings() {
     if (facts_.callsByName || !reporter_.isOn(Code::UnusedRoutine)) return;
-    RoutineList roots, candidates; // what is never called at all is told by itself, what it calls is not
+    RoutineList roots,
+        candidates; // a routine that is never called is reported by itself, its callees are not
     for (const Module* module : task_.modules)
         for (const RoutineSymbol* routine : module->routines)
             (routine->used && isOnlyForCallers(*routine) ? candidates : roots).push_back(routine);

@@ -27,7 +27,7 @@ class Lint {
     /// The modules of one file, when it is checked.
     void file(const sema::CheckedProgram& program, const sema::Task& task,
               std::span<sema::Module* const> modules);
-    /// What only the whole program tells, when all files are through.
+    /// Judgements that need the whole program, when all files have been read.
     void finish(const sema::CheckedProgram& program);
 
   private:

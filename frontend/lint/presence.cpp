@@ -1,4 +1,4 @@
-// What is known about optional parameters at each place: conditions with Present tell. Presence never changes while a
+// Knowledge about optional parameters at each place, from conditions with Present. Presence never changes while a
 // routine runs, so what is known stays known, but for the places where several ways meet.
 
 #include "frontend/lint/presence.h"
@@ -31,7 +31,7 @@ class PresenceWalk {
             handler(clause->body);
         handler(decl.backward);
         handler(decl.undo);
-        for (const Use& use : uses_) // the checker speaks of parameters that nobody asks for
+        for (const Use& use : uses_) // the checker reports parameters that are never checked
             if (tested_.count(use.param->group) > 0) report(*use.param, *use.place);
     }
 
@@ -45,7 +45,7 @@ class PresenceWalk {
         bool passedBy; ///< nobody has asked on the way to this place
     };
 
-    /// Where the body was left nobody knows.
+    /// The place where the body was left is not known.
     void handler(StmtList body) {
         std::fill(known_.begin(), known_.end(), Known::Nothing);
         certain_ = false;
@@ -68,7 +68,7 @@ class PresenceWalk {
         const RoutineSymbol* routine = found == module_.facts->calls.end() ? nullptr : found->second.routine;
         return routine && routine->role == role;
     }
-    /// The parameter that `e` asks for: Present(x). Also of switches, whose alternatives it tells about.
+    /// The parameter that `e` checks: Present(x). Also of switches, which decide about their alternatives.
     const DataSymbol* asked(const Expr& e) const {
         if (!isCallOf(e, sema::Role::Present)) return nullptr;
         const sema::BoundCall& call = module_.facts->calls.find(&e)->second;
@@ -86,7 +86,7 @@ class PresenceWalk {
         return constant && constant->kind == sema::ConstValue::Kind::Bool && constant->boolean == value;
     }
 
-    /// What is known when `e` is TRUE, or FALSE.
+    /// The knowledge when `e` is TRUE, or FALSE.
     void learn(const Expr& e, bool truth) {
         if (const DataSymbol* param = asked(e)) {
             settle(*param, truth);
@@ -124,7 +124,7 @@ class PresenceWalk {
         if (param && known_[param->index] == Known::Nothing) known_[param->index] = Known::Doubtful;
     }
 
-    /// What holds on both ways.
+    /// The knowledge that both paths share.
     static State merged(State a, const State& b) {
         for (size_t i = 0; i < a.size(); ++i)
             if (a[i] != b[i]) a[i] = Known::Nothing;
@@ -189,7 +189,7 @@ class PresenceWalk {
         }
     }
 
-    /// A condition of IF or WHILE: what it says is understood, or else nothing behind it is certain.
+    /// A condition of IF or WHILE: it is understood, or else nothing after it is certain.
     bool isPlain(const Expr& e) const {
         if (asked(e)) return true;
         if (e.kind == NodeKind::Paren) return isPlain(*as<ParenExpr>(e).inner);
@@ -412,7 +412,7 @@ class PresenceWalk {
     Reporter& reporter_;
     State known_; ///< by index of the parameter
     std::vector<bool> reported_;
-    size_t leaves_ = 0;                   ///< instructions seen so far that go on elsewhere
+    size_t leaves_ = 0;                   ///< instructions seen so far that continue elsewhere
     bool certain_ = true;                 ///< every call of the routine comes here
     bool hopeless_ = false;               ///< what Present said has been stored
     std::unordered_set<uint32_t> tested_; ///< groups of alternatives

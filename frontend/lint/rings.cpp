@@ -10,7 +10,7 @@ using RoutineSet = std::unordered_set<const RoutineSymbol*>;
 namespace {
 
 constexpr size_t kMostCandidates =
-    500; ///< what is left of a program in which more is never called is no program
+    500; ///< with more routines that are never called, the rest is not worth judging
 
 /// Adds what `work` calls, directly or not; `within`: looks at these only.
 void reach(const TaskFacts& facts, RoutineList work, const RoutineSet* within, RoutineSet& into) {

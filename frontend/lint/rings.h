@@ -10,7 +10,7 @@ namespace rapid::lint {
 using RoutineList = std::vector<const sema::RoutineSymbol*>;
 
 /// The rings among `candidates` that no call from `roots` reaches and no other candidate calls: each with its members
-/// in the order of `candidates`. What such a ring calls is part of none.
+/// in the order of `candidates`. Routines that such a ring calls are not part of a ring.
 std::vector<RoutineList> ringsOf(const TaskFacts& facts, const RoutineList& roots, RoutineList candidates);
 
 } // namespace rapid::lint

@@ -253,7 +253,7 @@ bool Walker::statement(const Stmt& s) {
     }
 }
 
-// TRYNEXT in the handler of the routine goes on behind the RAISE.
+// TRYNEXT in the handler of the routine continues after the RAISE.
 bool Walker::raises() {
     ++ends_;
     return handlerGoesOn_ && !inHandler_;
@@ -320,7 +320,7 @@ void Walker::duplicateConditions(const IfStmt& s) {
         for (size_t k = 0; k < i; ++k) {
             if (!s.branches[k]->condition || !sameText(*s.branches[k]->condition, *condition)) continue;
             if (diag::Diagnostic* d = report(say::DuplicateCondition, range(*condition)))
-                d->notes.push_back({tree_->source, range(*s.branches[k]->condition), "it stands here first"});
+                d->notes.push_back({tree_->source, range(*s.branches[k]->condition), "it is here first"});
             break;
         }
     }

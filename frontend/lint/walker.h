@@ -11,7 +11,7 @@ namespace rapid::lint {
 inline constexpr size_t kMaxTracked = 256;
 using Slots = std::bitset<kMaxTracked>;
 
-/// What a routine does with one of its parameters or variables.
+/// The uses of a parameter or variable by its routine.
 enum Access : uint8_t {
     kRead = 1,      ///< its value is used, or it is passed on
     kAssigned = 2,  ///< by an assignment
@@ -154,7 +154,7 @@ class Walker {
     std::vector<const syntax::Expr*>
         updates_; ///< of IN parameters, by DataSymbol::index: where kUpdated came from
     size_t tracked_ = 0;
-    bool handlerGoesOn_ = false; ///< an ERROR handler has TRYNEXT: instructions behind RAISE are reached
+    bool handlerGoesOn_ = false; ///< an ERROR handler has TRYNEXT: instructions after RAISE are reached
     bool inHandler_ = false;
     bool handlerResumes_ = false; ///< with RETRY or TRYNEXT: the body reads again what the handler assigns
     std::vector<FractionUse> fractions_;                           ///< of data of the routine

@@ -68,7 +68,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// Where the comment of a line begins; npos if it has none. Strings do not go over several lines.
+/// The beginning of the comment of a line; npos if it has none. Strings do not extend over several lines.
 size_t commentStart(std::string_view line) {
     bool inString = false;
     for (size_t i = 0; i < line.size(); ++i) {
@@ -88,7 +88,7 @@ std::string_view takeWord(std::string_view& text) {
     return word;
 }
 
-/// The next line with code at or below `line`, for a comment that stands alone. Remembers the last answer, so
+/// The next line with code at or below `line`, for a comment that is alone on its line. Remembers the last answer, so
 /// that long comments are read once.
 struct CodeLines {
     uint32_t from = 0, to = 0;
@@ -102,7 +102,7 @@ struct CodeLines {
     }
 };
 
-/// Reads the directive at `offset`, where "rapidc:" stands; false if that is no comment of its own.
+/// Reads the directive at `offset`, the place of "rapidc:"; false if that is not a comment of its own.
 bool readDirective(const SourceFile& file, size_t offset, CodeLines& code, Directive& out) {
     out.line = file.lineColumn(static_cast<uint32_t>(offset)).line;
     const std::string_view line = file.lineText(out.line);

@@ -1,7 +1,7 @@
 #pragma once
 // Which warnings are wanted: by the project file, by the command line, by comments in the source.
 //
-//     ! rapidc: ignore unused-variable          this line, or the next one when the comment stands alone
+//     ! rapidc: ignore unused-variable          this line, or the next one when the comment is alone on its line
 //     ! rapidc: off zone-too-small              from here to the end of the file or to `on`
 //     ! rapidc: on zone-too-small
 //

@@ -43,7 +43,7 @@ bool readTask(std::string_view line, ListedTask& task) {
     return !task.folder.empty() && !task.name.empty();
 }
 
-/// `PROGMOD/main.mod @ main.mod`; what stands behind '@' repeats the name in lower case, or says HIDDEN.
+/// `PROGMOD/main.mod @ main.mod`; the text after '@' repeats the name in lower case, or says HIDDEN.
 bool readModule(std::string_view line, ListedModule& module) {
     const size_t mark = line.find('@');
     std::string path(trimmed(line.substr(0, mark)));

@@ -23,7 +23,7 @@ struct ListedTask {
 
 struct BackupInfo {
     std::string systemId;
-    std::string robotWare;            ///< "6.16.02.00"; empty if not told
+    std::string robotWare;            ///< "6.16.02.00"; empty if not known
     std::vector<std::string> addIns;  ///< "StateMachine Add-In 1.1"
     std::vector<std::string> options; ///< "616-1 PC Interface", "IRB 1660ID-4/1.55"
     std::vector<ListedTask> tasks;

@@ -43,7 +43,7 @@ struct Description {
     mutable size_t searches = 0;
 
     std::string_view text() const { return file ? file->text() : std::string_view(); }
-    /// Where `what` stands behind the first `after`; the beginning of the file if it is not there.
+    /// The place of `what` after the first `after`; the beginning of the file if it is not there.
     SourceRange find(std::string_view what, std::string_view after = {}) const {
         if (++searches > kMostSearches) return {};
         const size_t from = text().find(after);
@@ -124,7 +124,7 @@ class BackupLoader {
         home_ = findEntry(folder_, "HOME");
     }
 
-    /// What the lack of system parameters means; nothing for a program that was kept without its controller.
+    /// The consequences of missing system parameters; nothing for a program that was saved without its controller.
     std::string describeMissingParameters() const {
         if (!infoFile_.file) return {};
         const fs::path parameters = findEntry(folder_, "SYSPAR");
@@ -268,7 +268,7 @@ class BackupLoader {
         if (listed.hidden)
             report(say::SystemModuleNotSaved, infoFile_, place,
                    {stemOf(listed.file), "task '" + task.input.name + "'", name + ", hidden"});
-        else if (!task.folder.empty() || task.configured) // else the task is left out, which is told
+        else if (!task.folder.empty() || task.configured) // else the task is left out, which is reported
             report(say::ListedModuleMissing, infoFile_, place,
                    {name, task.input.name, (fs::path("RAPID") / task.listed->folder).string()});
     }
@@ -353,7 +353,7 @@ class BackupLoader {
                     addModule(path, task);
                     continue;
                 }
-                if (isLeftOut(task) || isKnownMissing(task, module)) continue; // told already
+                if (isLeftOut(task) || isKnownMissing(task, module)) continue; // already reported
                 addMissing(task, module.name);
                 lacking.push_back("'" + task.input.name + "'");
             }
@@ -427,7 +427,7 @@ class BackupLoader {
         const SourceRange place = task.listed ? infoFile_.find(">>" + task.listed->folder) : SourceRange();
         const sema::TaskInput& input = task.input;
         if (isLeftOut(task)) {
-            std::string reason = "the backup has no modules of it";
+            std::string reason = "the backup has no modules for it";
             if (task.listed && !parameters_.tasks.empty()) reason += ", an option of the controller makes it";
             report(say::TaskLeftOut, infoFile_, place, {input.name, reason});
             return;
@@ -447,7 +447,7 @@ class BackupLoader {
         report(say::TaskOverview, infoFile_, place, {input.name, text});
         if (input.files.empty())
             report(say::TaskLeftOut, infoFile_, place,
-                   {input.name, task.encrypted.empty() ? "the backup has no modules of it"
+                   {input.name, task.encrypted.empty() ? "the backup has no modules for it"
                                                        : "all its modules are encrypted"});
     }
 

@@ -10,7 +10,7 @@
 namespace rapid::project {
 
 /// Appends the tasks of a folder to `out`, the motion task first. False, with nothing done, when the folder has no SYS.cfg
-/// that tells tasks or modules. `elsewhere`: tasks in upper case whose modules the command line names.
+/// that names tasks or modules. `elsewhere`: tasks in upper case whose modules the command line names.
 bool loadConfiguredFolder(const std::filesystem::path& folder, const std::set<std::string>& elsewhere,
                           FileReader& files, diag::Sink& sink, ProjectInput& out);
 

@@ -1,6 +1,5 @@
 #include "frontend/project/files.h"
 
-#include "config/read_file.h"
 #include "config/text_util.h"
 
 #include <algorithm>
@@ -69,7 +68,7 @@ fs::path findPath(const fs::path& folder, std::string_view relative) {
 
 bool FileReader::read(const fs::path& path, std::string& bytes) {
     filesRead_.push_back(path.string());
-    const std::string problem = config::readFile(path.string(), bytes);
+    const std::string problem = readText(texts_, path.string(), bytes);
     if (!problem.empty()) report(say::FileUnreadable, {path.string(), problem});
     return problem.empty();
 }
@@ -79,6 +78,11 @@ std::vector<fs::path> FileReader::list(const fs::path& folder) {
     std::vector<fs::path> found = entries(folder, error);
     if (error && !folder.empty() && unreadable_.insert(folder.string()).second)
         report(say::FileUnreadable, {folder.string(), error.message()});
+    if (!texts_ || folder.empty()) return found;
+    for (const fs::path& open : texts_->in(folder)) {
+        const auto place = std::lower_bound(found.begin(), found.end(), open);
+        if (place == found.end() || *place != open) found.insert(place, open);
+    }
     return found;
 }
 

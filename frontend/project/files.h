@@ -2,6 +2,7 @@
 // Files and folders as the loader sees them: names in any case, modules read once however many tasks have them.
 
 #include "frontend/diag/diagnostic.h"
+#include "frontend/project/open_texts.h"
 #include "frontend/sema/checker.h"
 
 #include <filesystem>
@@ -28,7 +29,8 @@ std::filesystem::path findPath(const std::filesystem::path& folder, std::string_
 /// Reads files and reports what cannot be read.
 class FileReader {
   public:
-    explicit FileReader(diag::Sink& sink) : sink_(sink) {}
+    /// `texts`, which may be null, count before the files.
+    explicit FileReader(diag::Sink& sink, const OpenTexts* texts = nullptr) : sink_(sink), texts_(texts) {}
 
     template <size_t N> void report(diag::Message<N> message, diag::MessageArgs<N> args) {
         sink_.report(message, nullptr, {}, args);
@@ -36,7 +38,7 @@ class FileReader {
     void report(diag::Message<0> message) { sink_.report(message, nullptr, {}); }
     /// The bytes of a file; false when it cannot be read, which is reported.
     bool read(const std::filesystem::path& path, std::string& bytes);
-    /// Entries of a folder, sorted by name; that it cannot be listed is reported, once.
+    /// Entries of a folder, sorted by name, open texts included; that it cannot be listed is reported, once.
     std::vector<std::filesystem::path> list(const std::filesystem::path& folder);
     /// Every file that read() was asked for.
     const std::vector<std::string>& filesRead() const { return filesRead_; }
@@ -52,6 +54,7 @@ class FileReader {
     bool isKnown(const std::filesystem::path& path, const sema::TaskInput& task);
 
     diag::Sink& sink_;
+    const OpenTexts* texts_;
     std::unordered_map<std::string, std::shared_ptr<const SourceFile>> known_; ///< by path
     std::unordered_map<const sema::TaskInput*, std::set<std::pair<dev_t, ino_t>>> identities_;
     std::set<std::string> unreadable_; ///< folders

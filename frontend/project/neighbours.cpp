@@ -44,7 +44,7 @@ fs::path partnerOf(const fs::path& folder) {
     return {};
 }
 
-/// What the modules beside some inputs declare for all modules, by name.
+/// The declarations for all modules in the modules beside some inputs, by name.
 class Neighbours {
   public:
     explicit Neighbours(const std::vector<std::string>& inputs) {

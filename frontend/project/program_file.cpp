@@ -61,7 +61,7 @@ std::string decodeEntities(std::string_view text) {
     return out;
 }
 
-/// Comments become blanks, so that what they contain is no module.
+/// Comments become blanks, so that modules in them do not count.
 std::string withoutComments(std::string text) {
     for (size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at)) {
         const size_t end = text.find("-->", at + 4);

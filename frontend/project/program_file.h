@@ -7,7 +7,7 @@
 
 namespace rapid::project {
 
-/// Module file names in a program file, in order, with '/' between folders. False: it is no program file, or cut off.
+/// Module file names in a program file, in order, with '/' between folders. False: it is not a program file, or truncated.
 bool readProgramFile(std::string_view text, std::vector<std::string>& modules);
 
 } // namespace rapid::project

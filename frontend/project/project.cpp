@@ -21,14 +21,14 @@ namespace {
 class Loader {
   public:
     /// `elsewhere`: the tasks whose modules the command line names.
-    Loader(ProjectInput& out, diag::Sink& sink, std::set<std::string> elsewhere)
-        : out_(out), sink_(sink), files_(sink), elsewhere_(std::move(elsewhere)) {}
+    Loader(ProjectInput& out, diag::Sink& sink, std::set<std::string> elsewhere, const OpenTexts* texts)
+        : out_(out), sink_(sink), texts_(texts), files_(sink, texts), elsewhere_(std::move(elsewhere)) {}
 
     /// Adds what `input` names to `task`. A backup adds tasks of its own and leaves `task` alone.
     void add(const std::string& input, sema::TaskInput& task, bool allowBackup) {
         const fs::path path(input);
         std::error_code error;
-        if (!fs::exists(path, error)) {
+        if (!fs::exists(path, error) && !(texts_ && texts_->find(input))) {
             report(say::FileNotFound, {input});
         } else if (isFolder(path)) {
             const fs::path backup = allowBackup ? backupIn(path) : fs::path();
@@ -58,7 +58,7 @@ class Loader {
     /// there is RAPID.
     static fs::path backupIn(const fs::path& given) {
         fs::path folder = given.has_filename() ? given : given.parent_path(); // "RAPID/"
-        std::error_code unreadable; // then it is no folder, which is told elsewhere
+        std::error_code unreadable; // then it is not a folder, which is reported elsewhere
         const fs::path whole = fs::canonical(folder, unreadable); // "." has a name, too
         fs::path parent = folder / "..";
         if (folder.filename() == whole.filename())
@@ -81,7 +81,7 @@ class Loader {
         if (out_.tasks.size() == before) report(say::FolderWithoutModules, {folder.string(), ""});
     }
 
-    /// Where below a folder the modules are: "; there are some in ...: name one of these".
+    /// The folders below a folder that have modules: "; there are some in ...: name one of these".
     static std::string elsewhere(const fs::path& folder) {
         constexpr int kMostEntries = 5000, kMostNamed = 3;
         std::set<std::string> found;
@@ -146,23 +146,38 @@ class Loader {
         return findPath(folder, std::string_view(name).substr(name.find_last_of("/\\:") + 1));
     }
 
+    /// The place of a module's name in a program file, or its beginning.
+    static SourceRange placeIn(const SourceFile& file, const std::string& name) {
+        const std::string_view text = file.text();
+        std::string other = name; // as it may be written
+        std::replace(other.begin(), other.end(), '/', '\\');
+        for (const std::string& form : {name, other})
+            if (const size_t at = text.find(form); at != std::string_view::npos)
+                return {static_cast<uint32_t>(at), static_cast<uint32_t>(at + form.size())};
+        return {};
+    }
+
     void addProgram(const fs::path& path, sema::TaskInput& task) {
         std::string text;
         if (!files_.read(path, text)) return;
         std::vector<std::string> modules;
-        if (!readProgramFile(text, modules)) {
-            report(say::BadProgramFile,
-                   {path.string(),
-                    "expected the XML program description of a controller, from <Program> to </Program>"});
+        const bool readable = readProgramFile(text, modules);
+        const auto file = std::make_shared<const SourceFile>(path.string(), std::move(text));
+        if (!readable) {
+            sink_.report(
+                say::BadProgramFile, file, {},
+                {path.string(),
+                 "expected the XML program description of a controller, from <Program> to </Program>"});
             return;
         }
-        if (modules.empty()) report(say::BadProgramFile, {path.string(), "it names no modules"});
+        if (modules.empty())
+            sink_.report(say::BadProgramFile, file, {}, {path.string(), "it names no modules"});
         task.incomplete = true; // system modules, which it never lists, may declare more
         const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
         for (const std::string& name : modules) {
             const fs::path found = findModule(folder, name);
             if (found.empty())
-                report(say::ProgramModuleMissing, {path.string(), name});
+                sink_.report(say::ProgramModuleMissing, file, placeIn(*file, name), {path.string(), name});
             else
                 files_.addModule(path.parent_path().empty() ? found.lexically_relative(".") : found, task);
         }
@@ -171,6 +186,7 @@ class Loader {
 
     ProjectInput& out_;
     diag::Sink& sink_;
+    const OpenTexts* texts_;
     FileReader files_;
     std::set<std::string> elsewhere_;
 };
@@ -189,12 +205,12 @@ void joinFirst(ProjectInput& out, sema::TaskInput& main) {
 } // namespace
 
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
-                 ProjectInput& out, diag::Sink& sink) {
+                 ProjectInput& out, diag::Sink& sink, const OpenTexts* texts) {
     const size_t errorsBefore = sink.errorCount();
     std::set<std::string> elsewhere;
     for (const TaskSpec& spec : extraTasks)
         elsewhere.insert(config::upperCase(spec.name));
-    Loader loader(out, sink, std::move(elsewhere));
+    Loader loader(out, sink, std::move(elsewhere), texts);
     sema::TaskInput main;
     for (const std::string& input : inputs)
         loader.add(input, main, true);

@@ -2,6 +2,7 @@
 // From the command line to tasks: files, folders, program files (.pgf) and controller backups become lists of source
 // files for each task, and the configuration files found beside them.
 
+#include "frontend/project/open_texts.h"
 #include "frontend/sema/checker.h"
 
 #include <optional>
@@ -20,7 +21,7 @@ struct TaskSpec {
 struct ProjectInput {
     std::vector<sema::TaskInput> tasks;
     std::vector<std::string> configFiles; ///< *.cfg files named or found, in the order of reading
-    /// RobotWare options that a backup tells, e.g. "623-1 Multitasking"; not known without one.
+    /// RobotWare options that a backup lists, e.g. "623-1 Multitasking"; not known without one.
     std::optional<std::vector<std::string>> robotWareOptions;
     std::vector<std::string> sharedFiles; ///< modules that a backup holds once for all tasks (TASK0), by path
     std::string robot;                    ///< model that a backup names only among its options; else empty
@@ -30,9 +31,9 @@ struct ProjectInput {
 };
 
 /// Resolves `inputs` (they make up task T_ROB1, unless one of them is a backup, which brings its own tasks) and the
-/// additional tasks. What cannot be used is reported with its remedy. Returns false if something was an error; `out`
-/// then holds what could be read.
+/// additional tasks. Unusable inputs are reported with their remedy. Returns false if something was an error; `out`
+/// then holds what could be read. `texts` count before files.
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
-                 ProjectInput& out, diag::Sink& sink);
+                 ProjectInput& out, diag::Sink& sink, const OpenTexts* texts = nullptr);
 
 } // namespace rapid::project

@@ -1,7 +1,6 @@
 #include "frontend/project/settings.h"
 
 #include "config/json_text.h"
-#include "config/read_file.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kSections = {"format", "warnings"};
 
-/// Where `"name"` stands as a key at or behind `from`; an empty range at `from` if it is written in another way.
+/// The place of `"name"` as a key at or after `from`; an empty range at `from` if it is written in another way.
 SourceRange placeOf(std::string_view text, const std::string& name, size_t from) {
     const std::string key = '"' + name + '"';
     for (size_t at = text.find(key, from); at != std::string_view::npos; at = text.find(key, at + 1)) {
@@ -106,7 +105,7 @@ std::string findSettings(const std::string& input) {
     if (!fs::is_directory(folder, error)) folder = folder.parent_path();
     for (;; folder = folder.parent_path()) {
         const fs::path candidate = folder / kSettingsFile;
-        if (fs::exists(candidate, error)) return candidate.string(); // of whatever kind: reading it tells
+        if (fs::exists(candidate, error)) return candidate.string(); // of whatever kind: reading it shows
         if (folder == folder.parent_path()) return {};
     }
 }
@@ -118,11 +117,11 @@ Settings readSettings(std::shared_ptr<const SourceFile> file, diag::Sink& sink) 
     return settings;
 }
 
-Settings loadSettings(const std::string& input, diag::Sink& sink) {
+Settings loadSettings(const std::string& input, diag::Sink& sink, const OpenTexts* texts) {
     const std::string path = findSettings(input);
     if (path.empty()) return {};
     std::string bytes;
-    if (const std::string problem = config::readFile(path, bytes); !problem.empty()) {
+    if (const std::string problem = readText(texts, path, bytes); !problem.empty()) {
         sink.report(say::BadProjectFile, nullptr, {},
                     {fmt::format("'{}' cannot be read: {}", path, problem)});
         return {};

@@ -3,6 +3,7 @@
 // sections; what an entry means is known to those it is for.
 
 #include "frontend/diag/diagnostic.h"
+#include "frontend/project/open_texts.h"
 
 #include <string>
 #include <variant>
@@ -33,8 +34,9 @@ inline constexpr const char* kSettingsFile = "rapidc.json";
 /// there is none.
 std::string findSettings(const std::string& input);
 
-/// Reads the project file that belongs to `input`. What cannot be read is reported in it, the rest holds.
-Settings loadSettings(const std::string& input, diag::Sink& sink);
+/// Reads the project file that belongs to `input`. Parts that cannot be read are reported in it, the rest holds. `texts` count
+/// before files.
+Settings loadSettings(const std::string& input, diag::Sink& sink, const OpenTexts* texts = nullptr);
 
 /// Reads a project file that is in memory already.
 Settings readSettings(std::shared_ptr<const SourceFile> file, diag::Sink& sink);

@@ -28,6 +28,7 @@ TaskParameters readTaskParameters(std::string_view text) {
             if (task.type != "NORMAL" && task.type != "STATIC") task.type = "SEMISTATIC";
             if (const std::string entry = instance.text("Entry"); !entry.empty()) task.entry = entry;
             task.motion = instance.flag("MotionTask");
+            task.bindsReferences = instance.find("BindRef") == nullptr || instance.flag("BindRef");
             if (!task.name.empty()) parameters.tasks.push_back(std::move(task));
         }
     }
@@ -37,9 +38,11 @@ TaskParameters readTaskParameters(std::string_view text) {
             module.file = instance.text("File");
             module.name = instance.text("ModName", stemOf(module.file));
             module.task = instance.text("Task");
-            module.allTasks = instance.flag("AllTask");
-            module.allMotionTasks = instance.flag("AllMotionTask");
             module.shared = instance.flag("Shared");
+            module.allMotionTasks = instance.flag("AllMotionTask");
+            // The copy of a shared module that belongs to no task is part of each.
+            module.allTasks =
+                instance.flag("AllTask") || (module.shared && module.task.empty() && !module.allMotionTasks);
             if (!module.file.empty()) parameters.modules.push_back(std::move(module));
         }
     }

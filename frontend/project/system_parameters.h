@@ -1,5 +1,5 @@
 #pragma once
-// What SYS.cfg says about tasks: CAB_TASKS and CAB_TASK_MODULES. Everything else in it is the runtime's.
+// The tasks in SYS.cfg: CAB_TASKS and CAB_TASK_MODULES. The runtime reads everything else in it.
 
 #include <string>
 #include <string_view>
@@ -12,12 +12,13 @@ struct ConfiguredTask {
     std::string type = "SEMISTATIC"; ///< what an absent Type means
     std::string entry = "main";
     bool motion = false;
+    bool bindsReferences = true; ///< BindRef: names that nothing declares are errors
 };
 
 /// A module that the controller loads at start-up. Part of a task, or of all of them.
 struct ConfiguredModule {
     std::string file; ///< "HOME:/x.sys", "RELEASE:/options/...", "STATEMACHINE:/RAPID/..."
-    std::string name; ///< of the module; that of the file when it is not told
+    std::string name; ///< of the module; that of the file when it is not given
     std::string task; ///< empty: see allTasks, allMotionTasks
     bool allTasks = false;
     bool allMotionTasks = false;

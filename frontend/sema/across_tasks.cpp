@@ -1,4 +1,4 @@
-// What concerns several tasks: persistents and modules they share.
+// Checks across tasks: persistents and modules they share.
 
 #include "frontend/sema/across_tasks.h"
 
@@ -38,7 +38,7 @@ std::string componentNames(const Type& record, size_t different) {
 }
 } // namespace
 
-// What is different in two types of one name: "place.x is num" and "place.x is dnum", or the names of the components.
+/// The difference of two types of one name: "place.x is num" and "place.x is dnum", or the names of the components.
 std::pair<std::string, std::string> TaskComparison::difference(const Type& left, const Type& right,
                                                                const std::string& where) {
     const Type &a = *left.base(), &b = *right.base();

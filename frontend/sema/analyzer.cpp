@@ -103,8 +103,9 @@ void Analyzer::setMissingModules(const TaskInput& input) {
     for (const auto& file : input.files) // what a file declares that cannot be read is not known
         if (file->isBinary())
             state_.task.missingModules.push_back(std::filesystem::path(file->path()).filename().string());
-    state_.task.incomplete =
-        input.incomplete || state_.task.missingModules.size() > input.missingModules.size();
+    state_.task.bindsLate = input.bindsLate;
+    state_.task.incomplete = input.incomplete || input.bindsLate ||
+                             state_.task.missingModules.size() > input.missingModules.size();
 }
 
 void Analyzer::startTask(const TaskInput& input) {
@@ -190,6 +191,7 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
 void Analyzer::finishFile(std::span<Module* const> modules, size_t said) {
     if (!state_.task.unknownNames.empty()) repeats_.gatherUnknown(modules);
     repeats_.gatherRepeats(modules, said);
+    state_.reports.forgetMisfits();
     if (state_.options.onFile) state_.options.onFile(state_.program, *state_.task.task, modules);
     if (!state_.options.onlyDiagnostics) return;
     for (Module* module : modules)

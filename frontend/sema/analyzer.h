@@ -1,5 +1,5 @@
 #pragma once
-// The analysis behind check(): an Analyzer works through the library and then each task. Internal to frontend/sema.
+// The analysis of check(): an Analyzer works through the library and then each task. Internal to frontend/sema.
 
 #include "frontend/sema/across_tasks.h"
 #include "frontend/sema/argument_order.h"
@@ -34,7 +34,7 @@ class Analyzer {
 
     void loadLibrary();
     void checkTask(const TaskInput& input);
-    /// What concerns several tasks: persistents and modules they share.
+    /// Checks across tasks: persistents and modules they share.
     void checkAcrossTasks() { comparison_.checkAcrossTasks(); }
 
     // ---- the steps of checkTask(), for a Session (analyzer.cpp, recheck.cpp)
@@ -54,6 +54,12 @@ class Analyzer {
     const TaskContext& task() const { return state_.task; }
 
     void keepFacts() { state_.keepsFacts = true; }
+    /// Session::setGuest.
+    void setGuest(const std::string& guest, const std::string& host) {
+        state_.guest = state_.names.intern(guest);
+        state_.host = state_.names.intern(host);
+        state_.hasGuest = true;
+    }
     /// Before the first task: all of them, because each can name the others.
     void setTaskNames(std::vector<std::string> names) { state_.taskNames = std::move(names); }
 

@@ -70,7 +70,7 @@ bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
                        });
 }
 
-// "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of what stands before it.
+// "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of the argument before it.
 bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     for (size_t i = 0; i + 1 < args.size(); ++i) {
         const Expr *whole = args[i]->value, *part = args[i + 1]->value;

@@ -12,6 +12,8 @@
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
+#include <algorithm>
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -69,6 +71,38 @@ void Arguments::checkArgument(const RoutineSymbol& routine, BoundArg& bound) {
         const Typed t = expressions_.expr(*bound.value, any ? nullptr : &param.type);
         state_.valueUnused = false;
         judgeValue(routine, bound, t);
+    }
+}
+
+// A value whose type depends on what is expected of it.
+static bool takesTypeFromContext(const Expr& value) {
+    const NodeKind kind = bare(value).kind;
+    return kind == NodeKind::Aggregate || kind == NodeKind::NumLiteral || kind == NodeKind::Unary;
+}
+
+void Arguments::checkSameType(const BoundCall& call, std::vector<const Argument*>& judged) {
+    std::vector<const BoundArg*> alike;
+    for (const BoundArg& bound : call.args)
+        if (bound.param->type.type->kind == TypeKind::AnyType && bound.kind == BoundArg::Kind::Present &&
+            bound.value)
+            alike.push_back(&bound);
+    if (alike.size() < 2) return;
+    const auto leads = [](const BoundArg* bound) { return !takesTypeFromContext(*bound->value); };
+    const auto lead = std::find_if(alike.begin(), alike.end(), leads);
+    if (lead != alike.end()) std::rotate(alike.begin(), lead, lead + 1);
+    DataType want;
+    for (const BoundArg* bound : alike) {
+        judged.push_back(bound->argument);
+        const Typed t = expressions_.expr(*bound->value, want.type ? &want : nullptr);
+        if (t.isError()) continue;
+        if (!checkClass(*call.routine, *bound, t.info->type)) continue;
+        if (!want.type) {
+            want = t.info->type;
+        } else if (!expressions_.fits(*bound->value, t, want)) {
+            const auto names = typeNames(t.info->type, want);
+            report(say::ArgumentType, range(*bound->value),
+                   {bound->param->name, call.routine->name, names[0], names[1]});
+        }
     }
 }
 
@@ -174,9 +208,10 @@ void Arguments::reportArguments(const BoundCall& call, TokenIndex name, size_t f
     for (const Mismatch& one : wrong) {
         const auto names = typeNames(one.found, one.param->type);
         const Remedy remedy = remedies_.remedyFor(routine, *one.value, one.found, *one.param);
-        remedies_.offer(
-            report(say::ArgumentType, range(*one.value), {one.param->name, routine.name, names[0], names[1]}),
-            *one.value, remedy);
+        remedies_.offer(report(say::ArgumentType, range(*one.value),
+                               {one.param->name, routine.name, names[0], names[1]},
+                               {Misfit::Type, *one.value}),
+                        *one.value, remedy);
     }
 }
 
@@ -204,7 +239,7 @@ void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bou
     }
     if (e.kind == NodeKind::Binary && bound.param->type.type->kind == TypeKind::SemiValue) {
         shapeReported_ =
-            true; // "WaitDI di1=1;": what stands in it, and what is missing behind it, is no news
+            true; // "WaitDI di1=1;": misplaced parts in it, and missing arguments after it, are already reported
         reportAccess(routine, bound, nullptr, describeExpr(e));
         return;
     }
@@ -219,7 +254,7 @@ void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bou
     reportAccess(routine, bound, nullptr, describeExpr(e));
 }
 
-// "ClkStart(clock1);": what is passed on as it is stands without parentheses.
+// "ClkStart(clock1);": data that are passed on unchanged are written without parentheses.
 void Arguments::fixParentheses(diag::Diagnostic& d, const Expr& e) {
     const SourceRange whole = range(e), inner = range(bare(e));
     const bool spaced = whole.begin > range(e.first - 1).end;
@@ -253,13 +288,14 @@ diag::Diagnostic& Arguments::reportAccess(const RoutineSymbol& routine, const Bo
     }
     if (bound.param->type.type->kind == TypeKind::SemiValue)
         expected = shapeReported_ ? "a signal, and ',' before the next argument" : "a signal";
-    auto& d = report(say::ArgumentNotVariable, range(*bound.value),
-                     {bound.param->name, routine.name, std::move(found), expected});
+    auto& d =
+        report(say::ArgumentNotVariable, range(*bound.value),
+               {bound.param->name, routine.name, std::move(found), expected}, {Misfit::Access, *bound.value});
     if (symbol) noteDeclared(d, *symbol);
     return d;
 }
 
-// What may be passed on for the callee to change. An INOUT parameter may stand for a variable or for a persistent:
+// Whether data may be passed on for the callee to change. An INOUT parameter may refer to a variable or to a persistent:
 // which one shows at run time (ERR_ARGNOTVAR, ERR_ARGNOTPER).
 void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
     DataSymbol& root = *place.root;
@@ -280,9 +316,9 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
         reportAccess(routine, bound, &root, std::move(found));
         return;
     }
-    // What takes a persistent of any type (IPers, GetSysData) also takes a component or an element of one.
+    // A parameter for a persistent of any type (IPers, GetSysData) also takes a component or an element of one.
     const bool anyPart = mode == ParamMode::Pers && bound.param->accepts == ParamClass::Value;
-    // Instructions of RobotWare change parts of persistents, too: "Incr rack{2}.count" (docs/decisions.md, 37).
+    // Instructions of RobotWare change parts of persistents, too: "Incr rack{2}.count" (decision 37).
     const bool mustBeWhole = !anyPart && (mode == ParamMode::Pers ||
                                           (mode == ParamMode::Inout && persistent && !routine.predefined));
     if (mustBeWhole && !place.whole) {
@@ -293,7 +329,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
     if (!routine.traits.has(Trait::Inspects)) scopes_.markAssigned(root); // IsVar and their like only look
 }
 
-// What an argument for such a parameter must be, or null when `found` is that.
+// The kind of argument that such a parameter needs, or null when `found` is that.
 const char* missingClass(ParamClass accepts, const DataType& found) {
     const Type& type = *found.type;
     const bool scalar = found.rank == 0;

@@ -26,6 +26,9 @@ class Arguments : CheckerPart {
     void checkDim(const syntax::CallExpr& e, const RoutineSymbol& routine);
     /// Checks an argument and judges it by its parameter.
     void checkArgument(const RoutineSymbol& routine, BoundArg& bound);
+    /// Checks the arguments for the parameters of type anytype of a routine that takes data of one type: an aggregate or a
+    /// literal has the type of the other one. Adds them to `judged`.
+    void checkSameType(const BoundCall& call, std::vector<const syntax::Argument*>& judged);
     /// Judges an argument that was checked already: a reference, or a value.
     void judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place);
     /// Reports the mismatches from `firstMismatch` on, and if `missing` the parameters without an argument.
@@ -63,7 +66,7 @@ class Arguments : CheckerPart {
     std::vector<Mismatch> mismatches_; ///< arguments of the wrong type, of the calls being checked
 };
 
-/// What an argument for such a parameter must be; null when `found` is that.
+/// The kind of argument that such a parameter needs; null when `found` is that.
 const char* missingClass(ParamClass accepts, const DataType& found);
 
 } // namespace rapid::sema

@@ -101,6 +101,8 @@ void applyDataAttributes(const SyntaxTree& tree, DataSymbol& symbol) {
     const DeclarationComment comment = commentOf(tree, *symbol.decl);
     if (classOf(comment) == TypeClass::SystemVariable) symbol.storage = Storage::SystemVariable;
     symbol.meaning = meaningOf(comment);
+    symbol.languageError =
+        valueOf(kLanguageErrorWords, comment.get("raisedby")).value_or(LanguageError::None);
 }
 
 void applyRoutineAttributes(const SyntaxTree& tree, RoutineSymbol& symbol) {

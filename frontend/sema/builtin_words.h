@@ -1,5 +1,5 @@
 #pragma once
-// What the attributes of predefined names say, as enumerations; the words are in builtin_words.def. No library is needed: the
+// The attributes of predefined names, as enumerations; the words are in builtin_words.def. No library is needed: the
 // generator of the standard library uses it, too.
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class Effects : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
-/// Where execution continues after a predefined procedure; from `flow:` in the declaration.
+/// The place where execution continues after a predefined procedure; from `flow:` in the declaration.
 enum class Flow : uint8_t {
     GoesOn,
 #define FLOW(Name, word) Name,
@@ -44,7 +44,14 @@ enum class Meaning : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
-/// What checker, warnings and lowering want to know of a native; from `traits:` in the declaration.
+/// Error numbers that constructs of the language raise; from `raisedby:` in the declaration (manual 1.12).
+enum class LanguageError : uint8_t {
+    None,
+#define LANGUAGE_ERROR(Name, word) Name,
+#include "frontend/sema/builtin_words.def"
+};
+
+/// Properties of a native for checker, warnings and lowering; from `traits:` in the declaration.
 enum class Trait : uint8_t {
 #define TRAIT(Name, word) Name,
 #include "frontend/sema/builtin_words.def"
@@ -90,6 +97,10 @@ inline constexpr BuiltinWord<TypeClass> kTypeClassWords[] = {
 };
 inline constexpr BuiltinWord<Meaning> kMeaningWords[] = {
 #define MEANING(Name, word) {word, Meaning::Name},
+#include "frontend/sema/builtin_words.def"
+};
+inline constexpr BuiltinWord<LanguageError> kLanguageErrorWords[] = {
+#define LANGUAGE_ERROR(Name, word) {word, LanguageError::Name},
 #include "frontend/sema/builtin_words.def"
 };
 inline constexpr BuiltinWord<Trait> kTraitWords[] = {

@@ -122,6 +122,7 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
     const bool complete = matchArguments(call, name, args);
     const bool mayMiss = complete && endsWell(name, args);
     checkExclusive(call);
+    if (routine.traits.has(Trait::SameType)) arguments_.checkSameType(call, judged_);
     for (BoundArg& bound : call.args) {
         if (!bound.argument) continue;
         const auto begin = judged_.begin() + static_cast<std::ptrdiff_t>(judgedBefore);

@@ -76,7 +76,7 @@ struct BoundCall {
     std::span<BoundArg> args;
 };
 
-/// What a file declares at module level. It outlives a check of its file: other files refer to it.
+/// The declarations of a file at module level. They outlive a check of its file: other files refer to them.
 struct FileSymbols {
     Arena arena;
     Store<Type> types{arena};

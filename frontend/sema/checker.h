@@ -26,6 +26,8 @@ struct TaskInput {
     /// Names that nothing declares may be declared elsewhere: some `missingModules`, or modules that were not named, as the
     /// system modules of a controller are that a program file never lists.
     bool incomplete = false;
+    /// BindRef of SYS.cfg is off: a name that nothing declares is an error of execution, which the program may handle.
+    bool bindsLate = false;
     /// Without an entry routine the task is left out of a program, with a warning, instead of being an error: tasks of
     /// options and add-ins, whose modules a backup does not hold.
     bool optional = false;
@@ -36,7 +38,7 @@ struct CheckOptions {
     bool configurationKnown = false; ///< some EIO configuration was given: an unknown signal name is an error
     bool assumeSignals = false;      ///< signals that the configuration lacks exist as they are used
     std::vector<SignalInfo> signals; ///< from the configuration; mechanical units as well
-    /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup tells them; else unknown.
+    /// RobotWare options of the controller, e.g. "623-1 Multitasking", when a backup lists them; else unknown.
     std::optional<std::vector<std::string>> robotWareOptions;
     /// Modules that are installed once for all tasks (CAB_TASK_MODULES), names in lower case.
     std::set<std::string> sharedModules;

@@ -1,5 +1,5 @@
 #pragma once
-// What is being checked: module, routine, task. Contexts are values: they are made, kept, compared and dropped.
+// The subject of a check: module, routine, task. Contexts are values: they are made, kept, compared and dropped.
 
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
@@ -13,7 +13,7 @@ namespace rapid::sema {
 using diag::Code;
 namespace say = diag::say;
 
-/// Where the check is: a module, and in it perhaps a routine.
+/// The place of the check: a module, and in it perhaps a routine.
 struct Context {
     Module* module = nullptr;
     const syntax::SyntaxTree* tree = nullptr;
@@ -25,7 +25,7 @@ struct Context {
 
 enum class Part : uint8_t { Body, Backward, Error, Undo };
 
-/// What a routine does with one of its optional parameters.
+/// The use of an optional parameter by its routine.
 struct OptionalUse {
     const syntax::Expr* first = nullptr; ///< first reference outside Present and conditional arguments
     bool tested = false;                 ///< by Present
@@ -85,10 +85,10 @@ struct UnknownName {
     const Module* module = nullptr;
     NameId name = 0;
     Code code{};
-    uint32_t cause = 0; ///< of the diagnostic
+    diag::CauseId cause{}; ///< of the diagnostic
     SourceRange where;
     bool looksMisspelt = false;
-    /// What is declared with nearly this name; data of routines only while their file is checked.
+    /// The declaration with the most similar name; data of routines only while their file is checked.
     const Symbol* near = nullptr;
     bool explained = false; ///< by a declaration that lost its name
 };
@@ -109,7 +109,7 @@ struct SignalUses {
     std::unordered_map<NameId, syntax::TokenIndex> own; ///< names of the routine that is read; their types
 };
 
-/// What is known about a task. A Session keeps it between checks.
+/// Facts about a task. A Session keeps them between checks.
 struct TaskContext {
     Task* task = nullptr;
     std::vector<TaskFile> files;
@@ -119,6 +119,7 @@ struct TaskContext {
     NameMap<Module> moduleNames;
     bool incomplete = false;                 ///< modules are missing: names may be unknown
     std::vector<std::string> missingModules; ///< their names, as far as they are known
+    bool bindsLate = false;                  ///< BindRef is off: names are looked for during execution
     /// The outcome depends on the order of the work: no file can be checked alone.
     bool dependsOnOrder = false;
     SignalUses signalUses;

@@ -20,7 +20,7 @@ void CyclicCondition::check(const CallStmt& s) {
     }
 }
 
-/// What of the expression cannot be evaluated later, and where it is; "" when it all can.
+/// The part of the expression that cannot be evaluated later, and its place; "" when all of it can.
 std::string CyclicCondition::notCyclic(const Expr& e, const Expr*& culprit) {
     const ExprInfo& facts = info(e);
     if (facts.type.type != nullptr && facts.type.type->kind == TypeKind::Error) return ""; // reported

@@ -55,7 +55,8 @@ void EntryCheck::checkEntry(Task& task) {
         return;
     }
     if (!state_.options.requireMain) return;
-    if (task_.incomplete || !unknown_.mayReportUnknown(name)) return;
+    if (!unknown_.mayReportUnknown(name))
+        return;                 // whatever a module that is missing declares, nothing can start
     if (task.modules.empty()) { // the reason is usually reported already
         if (!state_.sink.hasErrors()) state_.sink.report(say::NoEntry, nullptr, {}, {task.name, task.entry});
         return;

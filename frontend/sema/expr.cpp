@@ -130,7 +130,7 @@ bool Expressions::aggregateFits(const AggregateExpr& e, const DataType& want) {
     else if (want.type->kind == TypeKind::Error)
         return false;
     else if (want.rank == 0 && want.type->kind != TypeKind::Record)
-        report(say::AggregateForAtomic, range(e), {typeName(want)});
+        report(say::AggregateForAtomic, range(e), {typeName(want)}, {Misfit::Aggregate, e});
     else {
         const size_t expected = want.rank == 0     ? want.type->base()->components.size()
                                 : want.dims[0] > 0 ? static_cast<size_t>(want.dims[0])
@@ -190,8 +190,9 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
         if (!fit) {
             const auto names = typeNames(t.info->type, member);
             const Remedy remedy = remedies_.remedyFor(element, t.info->type, member);
-            remedies_.offer(report(say::AggregateMember, range(element), {names[0], names[1]}), element,
-                            remedy);
+            remedies_.offer(
+                report(say::AggregateMember, range(element), {names[0], names[1]}, {Misfit::Type, element}),
+                element, remedy);
         }
         if (!array &&
             member.type->kind == TypeKind::Error) { // of a type that is not here: what is said is left out
@@ -283,7 +284,8 @@ bool Expressions::condition(const Expr& e, const char* what) {
     const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
     const Remedy remedy = signal ? Remedy{": compare the signal, " + data->name + " = 1", data->name + " = 1"}
                                  : remedies_.remedyFor(e, t.info->type, {program_.boolean, 0, {}});
-    auto& d = report(say::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words});
+    auto& d =
+        report(say::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words}, {Misfit::Type, e});
     if (!remedy.instead.empty()) d.fix(range(e), remedy.instead, false);
     return false;
 }

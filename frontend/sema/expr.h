@@ -40,6 +40,7 @@ class Expressions : CheckerPart {
     Typed equality(const syntax::BinaryExpr& e, Typed left, Typed right);
     Typed logic(const syntax::BinaryExpr& e, Typed left, Typed right);
     bool refusesAggregate(const syntax::BinaryExpr& e, const DataType& partner);
+    void reportMixed(const syntax::BinaryExpr& e);
     Typed operatorError(const syntax::BinaryExpr& e, Typed left, Typed right);
     enum class Numeric : uint8_t { Ok, Mixed, NotNumeric };
     Numeric unify(const syntax::BinaryExpr& e, Typed& left, Typed& right, Flex& flex);

@@ -34,7 +34,7 @@ Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* s
         folding_.foldUnary(e, slot);
         return t;
     }
-    report(say::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)});
+    report(say::UnaryOperatorType, range(e.first), {name, typeName(*operand.info)}, {Misfit::Operator, e});
     return errorExpr(e);
 }
 
@@ -113,7 +113,8 @@ bool Expressions::refusesAggregate(const BinaryExpr& e, const DataType& partner)
     const bool left = isAggregate(*e.left);
     report(say::OperatorTypes, range(e.opToken),
            {text(e.opToken), left ? text(*e.left) : typeName(partner),
-            left ? typeName(partner) : text(*e.right), targetRemedy(e.op, partner)});
+            left ? typeName(partner) : text(*e.right), targetRemedy(e.op, partner)},
+           {Misfit::Operator, e});
     return true;
 }
 
@@ -122,7 +123,7 @@ Typed Expressions::combine(const BinaryExpr& e, Typed left, Typed right) {
     if (isRelation(e.op) && e.left->kind == NodeKind::Binary && isRelation(as<BinaryExpr>(*e.left).op))
         return result(e, program_.boolean); // a chain of relations is a syntax error
     if (left.isError() || right.isError()) {
-        // What a comparison gives is known all the same, and what a logical operator takes.
+        // The result type of a comparison is known all the same, as are the operands of a logical operator.
         const bool gives = e.op >= BinaryOp::Lt;
         const Typed known = left.isError() ? right : left;
         const bool takes = e.op < BinaryOp::And || known.isError() || known.isScalar(TypeKind::Bool);
@@ -150,10 +151,15 @@ Typed Expressions::combine(const BinaryExpr& e, Typed left, Typed right) {
     return errorExpr(e);
 }
 
+void Expressions::reportMixed(const BinaryExpr& e) {
+    report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)}, {Misfit::Operator, e});
+}
+
 Typed Expressions::operatorError(const BinaryExpr& e, Typed left, Typed right) {
     if (context_.tree->text(e.opToken)[0] == '&') return errorExpr(e); // of another language, reported
     report(say::OperatorTypes, range(e.opToken),
-           {text(e.opToken), typeName(*left.info), typeName(*right.info), operatorRemedy(e.op, left, right)});
+           {text(e.opToken), typeName(*left.info), typeName(*right.info), operatorRemedy(e.op, left, right)},
+           {Misfit::Operator, e});
     return errorExpr(e);
 }
 
@@ -181,7 +187,7 @@ Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed&
 Typed Expressions::arithmetic(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
-    case Numeric::Mixed: report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)}); return errorExpr(e);
+    case Numeric::Mixed: reportMixed(e); return errorExpr(e);
     case Numeric::NotNumeric: return vectorArithmetic(e, left, right);
     case Numeric::Ok: break;
     }
@@ -243,7 +249,7 @@ Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right
 Typed Expressions::comparison(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     switch (unify(e, left, right, flex)) {
-    case Numeric::Mixed: report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)}); break;
+    case Numeric::Mixed: reportMixed(e); break;
     case Numeric::NotNumeric: operatorError(e, left, right); break;
     case Numeric::Ok: {
         const Typed t = result(e, program_.boolean);
@@ -280,7 +286,7 @@ Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
     if (numeric == Numeric::Ok)
         folding_.foldBinary(e);
     else if (numeric == Numeric::Mixed)
-        report(say::NumDnumMixed, range(e.opToken), {text(e.opToken)});
+        reportMixed(e);
     else if (bool known = true; a.type->base() != b.type->base() || !sameDimensions(a, b, known)) {
         const auto names = typeNames(a, b);
         const bool literalLeft = e.left->kind == NodeKind::NumLiteral ||
@@ -288,7 +294,8 @@ Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
                                  e.left->kind == NodeKind::BoolLiteral;
         const Expr& odd = literalLeft ? *e.left : *e.right;
         const Remedy remedy = literalLeft ? remedies_.remedyFor(odd, a, b) : remedies_.remedyFor(odd, b, a);
-        remedies_.offer(report(say::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]}),
+        remedies_.offer(report(say::CompareTypes, range(e.opToken), {text(e.opToken), names[0], names[1]},
+                               {Misfit::Operator, e}),
                         odd, remedy);
     } else if (!known)
         report(say::CompareArrays, range(e.opToken), {text(e.opToken)});

@@ -9,7 +9,7 @@ class Folding : CheckerPart {
   public:
     explicit Folding(State& state);
 
-    /// Where the values are kept that are being worked out.
+    /// The expressions whose values are kept during evaluation.
     Arena& valueArena() { return context_.routine ? facts().inner : facts().values; }
     ConstValue* newConst() { return valueArena().make<ConstValue>(); }
     /// Gives the expression its value if its operands have one. Division by zero and overflow are reported.
@@ -17,7 +17,7 @@ class Folding : CheckerPart {
     void foldUnary(const syntax::UnaryExpr& e, ConstValue* slot);
     /// A copy that stays when the file of `value` is checked again.
     ConstValue owned(const ConstValue& value);
-    /// What data of a value type have without an initial value: 0, FALSE, "".
+    /// The value of data of a value type without an initial value: 0, FALSE, "".
     void setDefault(ConstValue& value, const Type& type);
     /// An element or component of a constant, which may be that of another file.
     const ConstValue* partOf(const ConstValue& value);

@@ -12,14 +12,14 @@ namespace {
 
 constexpr unsigned char kLatin1Lead = 0xC3; // first byte of U+00C0 to U+00FF in UTF-8
 
-/// Lower case of one byte; `previous` tells the second byte of an ISO 8859-1 letter from others.
+/// Lower case of one byte; `previous` distinguishes the second byte of an ISO 8859-1 letter from others.
 unsigned char foldByte(unsigned char c, unsigned char previous) {
     if (c >= 'A' && c <= 'Z') return static_cast<unsigned char>(c + 32);
     const bool upperLatin1 = previous == kLatin1Lead && c >= 0x80 && c <= 0x9E && c != 0x97;
     return upperLatin1 ? static_cast<unsigned char>(c + 0x20) : c;
 }
 
-/// Equal for names that differ in case only: the bit that tells the cases of letters apart is left out, also in the
+/// Equal for names that differ in case only: the bit that distinguishes upper from lower case is left out, also in the
 /// second bytes of ISO 8859-1 letters. Eight bytes at a time, the last ones overlapping those before.
 uint32_t foldedHash(std::string_view name) {
     constexpr uint64_t kLowerCase = 0x2020202020202020u;

@@ -61,7 +61,7 @@ template <class N, class T> class NodeMap {
     }
 
   private:
-    /// Where the node is or would be.
+    /// The place of the node, or where it would be.
     size_t slotOf(const N* node) const {
         const size_t mask = slots_.size() - 1;
         size_t slot = (reinterpret_cast<uintptr_t>(node) * uint64_t{0x9E3779B97F4A7C15u} >> 32) & mask;

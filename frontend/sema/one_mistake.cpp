@@ -8,13 +8,12 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <optional>
 #include <unordered_map>
 
 namespace rapid::sema {
 
 using namespace syntax;
-using diag::Code;
 using diag::Diagnostic;
 
 namespace {
@@ -26,7 +25,7 @@ constexpr size_t kEnoughOfOneKind = 3;
 
 using Said = std::vector<const Diagnostic*>;
 
-/// What the place of a use says about its type.
+/// The type that the place of a use needs.
 struct Claim {
     Said said;              ///< what is wrong there; empty: it fits
     DataType needed;        ///< null type: see `shape`
@@ -55,22 +54,16 @@ bool sameType(const DataType& a, const DataType& b) {
     return a.type->base() == b.type->base() && a.rank == b.rank;
 }
 
-/// What the uses of a wrong declaration cause.
-bool isOfUse(Code code) {
-    constexpr Code kAll[] = {
-        Code::ComponentOfNonRecord, Code::UnaryOperatorType, Code::IndexNotArray,      Code::IndexType,
-        Code::OperatorTypes,        Code::NumDnumMixed,      Code::CompareTypes,       Code::ArgumentType,
-        Code::ArgumentNotVariable,  Code::InitialValueType,  Code::AggregateForAtomic, Code::AggregateMember,
-        Code::ForBoundType,         Code::ConditionNotBool,  Code::AssignConstant,     Code::AssignType,
-        Code::NumDnumAssign,        Code::TestValueType,     Code::ReturnType};
-    return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
-}
-
 class UseWalk {
   public:
-    UseWalk(const CheckedProgram& program, const Said& said) : program_(program) {
+    UseWalk(const CheckedProgram& program, const Said& said, std::span<const ReportedMisfit> misfits)
+        : program_(program) {
+        std::unordered_map<diag::CauseId, const Diagnostic*> byCause;
         for (const Diagnostic* d : said)
-            if (isOfUse(d->code)) said_.emplace(std::tuple(d->range.begin, d->range.end, d->code), d);
+            byCause.emplace(d->cause, d);
+        for (const ReportedMisfit& m : misfits) // a report that was taken back is not among `said`
+            if (const auto found = byCause.find(m.cause); found != byCause.end())
+                said_.emplace(std::pair(m.node, m.misfit), found->second);
     }
 
     /// Whether there is anything to merge.
@@ -99,35 +92,30 @@ class UseWalk {
         for (const auto& [symbol, uses] : uses_)
             if (isWrong(uses)) addDeclared(out, *symbol, uses);
         for (const auto& [key, said] : kinds_)
-            if (said.size() >= kEnoughOfOneKind)
-                out.push_back({members(said), {}, guardOf(*std::get<0>(key))});
+            if (said.size() >= kEnoughOfOneKind) out.push_back({members(said), {}, guardOf(*key.first)});
         return out;
     }
 
   private:
     // ---- what was said
 
-    const Diagnostic* find(SourceRange where, Code code) const {
-        const auto found = said_.find(std::tuple(where.begin, where.end, code));
+    const Diagnostic* find(const Node& node, Misfit misfit) const {
+        const auto found = said_.find(std::pair(&node, misfit));
         return found == said_.end() ? nullptr : found->second;
     }
-    SourceRange range(const Node& node) const { return module_->tree->range(node); }
-    SourceRange range(TokenIndex token) const { return module_->tree->range(token); }
     const ExprInfo& info(const Expr& e) const { return program_.info(*module_, e); }
     bool isUnknown(const DataType& type) const { return !type.type || type.type->kind == TypeKind::Error; }
 
-    /// The claim of a place where `needed` stands beside it: `code` at `where` tells that they do not fit.
-    Claim claim(SourceRange where, std::initializer_list<Code> codes, const DataType& needed) const {
+    /// The claim of a place that needs the type `needed`, with the report that `node` does not fit, if there is one.
+    Claim claim(const Node& node, Misfit misfit, const DataType& needed) const {
         Claim out;
-        for (const Code code : codes)
-            if (const Diagnostic* d = find(where, code)) out.said.push_back(d);
+        if (const Diagnostic* d = find(node, misfit)) out.said.push_back(d);
         out.needed = needed;
         out.nothing = isUnknown(needed);
         return out;
     }
-    Claim claim(const Expr& e, std::initializer_list<Code> codes, const Type* needed) const {
-        return claim(range(e), codes, {needed, 0, {}});
-    }
+    Claim claim(const Expr& e, const DataType& needed) const { return claim(e, Misfit::Type, needed); }
+    Claim claim(const Expr& e, const Type* needed) const { return claim(e, {needed, 0, {}}); }
     static Claim anything() {
         Claim out;
         out.nothing = true;
@@ -155,7 +143,7 @@ class UseWalk {
         }
     }
 
-    /// `other`: what stands against it, when that is an expression.
+    /// `other`: the other operand or value, when that is an expression.
     void expression(const Expr* e, Claim given = {}, const Expr* other = nullptr) {
         if (!e) return;
         switch (e->kind) {
@@ -170,8 +158,7 @@ class UseWalk {
         case NodeKind::Component: {
             const auto& part = as<ComponentExpr>(*e);
             Claim whole;
-            if (const Diagnostic* d =
-                    part.name == kNoToken ? nullptr : find(range(part.name), Code::ComponentOfNonRecord)) {
+            if (const Diagnostic* d = find(*e, Misfit::NotRecord)) {
                 whole.said = {d};
                 whole.shape = "a record";
             }
@@ -180,9 +167,8 @@ class UseWalk {
         }
         case NodeKind::Unary: {
             const auto& unary = as<UnaryExpr>(*e);
-            const SourceRange sign = range(unary.first);
             expression(unary.operand,
-                       claim(sign, {Code::UnaryOperatorType},
+                       claim(unary, Misfit::Operator,
                              {unary.op == UnaryOp::Not ? program_.boolean : program_.num, 0, {}}));
             break;
         }
@@ -200,7 +186,7 @@ class UseWalk {
     }
 
     void element(const IndexExpr& e, Claim given, const Expr* other) {
-        if (const Diagnostic* d = find(range(e), Code::IndexNotArray)) {
+        if (const Diagnostic* d = find(e, Misfit::NotArray)) {
             given = {};
             given.said = {d};
             given.shape = "an array";
@@ -208,29 +194,24 @@ class UseWalk {
         given.needed.rank = static_cast<uint8_t>(given.needed.rank + e.indices.size());
         expression(e.base, std::move(given), other);
         for (const Expr* index : e.indices)
-            expression(index, claim(*index, {Code::IndexType}, program_.num));
+            expression(index, claim(*index, program_.num));
     }
 
     void binary(const BinaryExpr& top) {
         const BinaryExpr* e = &top;
         while (true) {
-            const SourceRange sign = range(e->opToken);
             const bool logic = e->op >= BinaryOp::And;
             const DataType boolean = {program_.boolean, 0, {}};
-            const std::initializer_list<Code> codes = {Code::OperatorTypes, Code::NumDnumMixed,
-                                                       Code::CompareTypes};
-            expression(e->right, side(sign, codes, logic ? boolean : info(*e->left).type, *e->right, logic),
-                       e->left);
-            Claim left = side(sign, codes, logic ? boolean : info(*e->right).type, *e->left, logic);
+            expression(e->right, side(*e, logic ? boolean : info(*e->left).type, *e->right, logic), e->left);
+            Claim left = side(*e, logic ? boolean : info(*e->right).type, *e->left, logic);
             if (e->left->kind != NodeKind::Binary) return expression(e->left, std::move(left), e->right);
             e = &as<BinaryExpr>(*e->left);
         }
     }
 
-    /// What an operand should be when the other one is right.
-    Claim side(SourceRange sign, std::initializer_list<Code> codes, const DataType& needed, const Expr& e,
-               bool logic) const {
-        Claim out = claim(sign, codes, needed);
+    /// The claim about operand `e` when the other one is right.
+    Claim side(const BinaryExpr& whole, const DataType& needed, const Expr& e, bool logic) const {
+        Claim out = claim(whole, Misfit::Operator, needed);
         if (out.nothing || out.said.empty() || isUnknown(info(e).type) || !sameType(info(e).type, needed))
             return out;
         if (logic)
@@ -255,17 +236,14 @@ class UseWalk {
         const Expr& value = *bound.value;
         const DataSymbol& param = *bound.param;
         if (param.type.type->kind == TypeKind::AnyType) return expression(&value, anything());
-        const auto codes = {Code::ArgumentType, Code::ArgumentNotVariable};
-        const Claim wrong = claim(range(value), codes, {});
-        const bool typed = find(range(value), Code::ArgumentType) != nullptr;
-        if (!wrong.said.empty() && !typed) { // of the right type, but of another kind
-            if (const Symbol* root = rootOf(value))
-                kinds_[{root, Code::ArgumentNotVariable, param.mode}].push_back(wrong.said.front());
+        const bool typed = find(value, Misfit::Type) != nullptr;
+        const Diagnostic* access = find(value, Misfit::Access);
+        if (access && !typed) { // of the right type, but of another kind
+            if (const Symbol* root = rootOf(value)) kinds_[{root, param.mode}].push_back(access);
             return expression(&value);
         }
-        const DataType& given = info(value).type;
-        use(&param, param.type, claim(range(value), {Code::ArgumentType}, given), &value);
-        expression(&value, claim(range(value), {Code::ArgumentType}, param.type));
+        use(&param, param.type, claim(value, info(value).type), &value);
+        expression(&value, claim(value, param.type));
     }
 
     const Symbol* rootOf(const Expr& e) const {
@@ -287,7 +265,7 @@ class UseWalk {
             expression(dimension);
         if (!data.init && !decl.init) return;
         const Expr& init = *decl.init;
-        Claim own = claim(range(init), {Code::InitialValueType}, info(init).type);
+        Claim own = claim(init, info(init).type);
         if (init.kind == NodeKind::Aggregate) own = members(as<AggregateExpr>(init), data.type);
         use(&data, data.type, std::move(own), &init);
         expression(&init);
@@ -296,19 +274,17 @@ class UseWalk {
     /// The members of an initial value: wrong as a whole when all are wrong in the same way.
     Claim members(const AggregateExpr& e, const DataType& declared) const {
         Claim out;
-        if (const Diagnostic* d = find(range(e), Code::AggregateForAtomic)) {
+        if (const Diagnostic* d = find(e, Misfit::Aggregate)) {
             out.said = {d};
             out.shape = "an array or a record";
             return out;
         }
-        const auto wrong = said_.lower_bound(std::tuple(range(e).begin, 0U, Code{}));
-        const bool fits = wrong == said_.end() || std::get<0>(wrong->first) >= range(e).end;
-        return fits || declared.rank != 1 ? out : elements(e, declared.rank);
+        return declared.rank != 1 ? out : elements(e, declared.rank);
     }
     Claim elements(const AggregateExpr& e, uint8_t rank) const {
         Claim out;
         for (const Expr* member : e.elements()) {
-            const Diagnostic* d = find(range(*member), Code::AggregateMember);
+            const Diagnostic* d = find(*member, Misfit::Type);
             const DataType found = {info(*member).type.type, rank, {}};
             if (!d || isUnknown(found) || (out.needed.type && !sameType(out.needed, found))) return {};
             out.needed = found;
@@ -339,7 +315,7 @@ class UseWalk {
         case NodeKind::For: {
             const auto& loop = as<ForStmt>(node);
             for (const Expr* bound : {loop.from, loop.to, loop.step})
-                if (bound) expression(bound, claim(*bound, {Code::ForBoundType}, program_.num));
+                if (bound) expression(bound, claim(*bound, program_.num));
             return list(loop.body);
         }
         case NodeKind::Test: return test(as<TestStmt>(node));
@@ -351,20 +327,18 @@ class UseWalk {
     }
 
     void condition(const Expr* e) {
-        if (e) expression(e, claim(*e, {Code::ConditionNotBool}, program_.boolean));
+        if (e) expression(e, claim(*e, program_.boolean));
     }
 
     void assign(const AssignStmt& s) {
         if (!s.target || !s.value) return;
-        if (const Diagnostic* d = find(range(*s.target), Code::AssignConstant)) {
-            if (const Symbol* root = rootOf(*s.target))
-                kinds_[{root, Code::AssignConstant, ParamMode::In}].push_back(d);
+        if (const Diagnostic* d = find(*s.target, Misfit::Access)) {
+            if (const Symbol* root = rootOf(*s.target)) kinds_[{root, std::nullopt}].push_back(d);
             expression(s.target, anything());
             return expression(s.value);
         }
-        const auto codes = {Code::AssignType, Code::NumDnumAssign};
-        expression(s.target, claim(range(*s.value), codes, info(*s.value).type), s.value);
-        expression(s.value, claim(range(*s.value), codes, info(*s.target).type));
+        expression(s.target, claim(*s.value, info(*s.value).type), s.value);
+        expression(s.value, claim(*s.value, info(*s.target).type));
     }
 
     void test(const TestStmt& s) {
@@ -372,8 +346,8 @@ class UseWalk {
         for (const TestCase* c : s.cases) {
             for (const Expr* value : c->values) {
                 const DataType subject = s.subject ? info(*s.subject).type : DataType();
-                expression(s.subject, claim(range(*value), {Code::TestValueType}, info(*value).type), value);
-                expression(value, claim(range(*value), {Code::TestValueType}, subject));
+                expression(s.subject, claim(*value, info(*value).type), value);
+                expression(value, claim(*value, subject));
             }
             list(c->body);
         }
@@ -383,9 +357,8 @@ class UseWalk {
     void giveBack(const ReturnStmt& s) {
         if (!s.value) return;
         if (!routine_ || routine_->routineKind != RoutineKind::Func) return expression(s.value);
-        const SourceRange where = range(*s.value);
-        use(routine_, routine_->returnType, claim(where, {Code::ReturnType}, info(*s.value).type), s.value);
-        expression(s.value, claim(where, {Code::ReturnType}, routine_->returnType));
+        use(routine_, routine_->returnType, claim(*s.value, info(*s.value).type), s.value);
+        expression(s.value, claim(*s.value, routine_->returnType));
     }
 
     // ---- the outcome
@@ -401,7 +374,7 @@ class UseWalk {
         return out;
     }
 
-    /// What other files may use of what has this symbol.
+    /// The symbol that other files may use; null: none.
     static const Symbol* guardOf(const Symbol& symbol) {
         const Symbol* seen = &symbol;
         if (symbol.kind == SymbolKind::Data) {
@@ -453,16 +426,17 @@ class UseWalk {
     const CheckedProgram& program_;
     const Module* module_ = nullptr;
     const RoutineSymbol* routine_ = nullptr;
-    std::map<std::tuple<uint32_t, uint32_t, Code>, const Diagnostic*> said_;
+    std::map<std::pair<const Node*, Misfit>, const Diagnostic*> said_;
     std::unordered_map<const Symbol*, Uses> uses_;
-    std::map<std::tuple<const Symbol*, Code, ParamMode>, Said> kinds_;
+    /// Of data: the parameters of one mode that do not take it, or the assignments to it.
+    std::map<std::pair<const Symbol*, std::optional<ParamMode>>, Said> kinds_;
 };
 
 } // namespace
 
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
-                                const Said& said) {
-    UseWalk walk(program, said);
+                                const Said& said, std::span<const ReportedMisfit> misfits) {
+    UseWalk walk(program, said, misfits);
     if (!walk.isWorthIt()) return {};
     for (const Module* module : modules)
         walk.walk(*module);

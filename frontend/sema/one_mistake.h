@@ -1,7 +1,7 @@
 #pragma once
 // One mistake reported in several places: a declaration with a wrong type makes each use of it wrong.
 
-#include "frontend/sema/checked.h"
+#include "frontend/sema/reports.h"
 
 #include <span>
 #include <string>
@@ -23,9 +23,11 @@ struct Repeat {
 };
 
 /// What `said`, the errors of one file, report more than once: declarations that all uses contradict in the same way, and
-/// data that all instructions want of another kind. `modules`: those of the file, whose routines are still known.
+/// data that all instructions need of another kind. `modules`: those of the file, whose routines are still known;
+/// `misfits`: the places of the tree that the reports are about.
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
-                                const std::vector<const diag::Diagnostic*>& said);
+                                const std::vector<const diag::Diagnostic*>& said,
+                                std::span<const ReportedMisfit> misfits);
 
 /// When everything is reported: a line that lacks its semicolon and whose callee or last word is not known is one mistake.
 void mergeUnfinishedLines(diag::Sink& sink);

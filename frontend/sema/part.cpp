@@ -12,8 +12,13 @@ using namespace syntax;
 diag::Diagnostic& Reports::report(Code code, SourceRange where, std::span<const std::string> args) {
     if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
     diag::Diagnostic& d = (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
-    d.cause = ++lastCause_;
+    d.cause = diag::CauseId{++lastCause_};
     return d;
+}
+
+void Reports::noteMisfit(const diag::Diagnostic& diagnostic, const Subject& subject) {
+    if (diagnostic.cause != diag::CauseId::None)
+        misfits_.push_back({subject.misfit, &subject.node, diagnostic.cause});
 }
 
 /// In a line that could not be read as a whole: what seems wrong there follows from that.

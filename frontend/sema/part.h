@@ -41,10 +41,18 @@ class CheckerPart {
     diag::Diagnostic& report(diag::Message<0> message, SourceRange where) {
         return reports_.report(message.code, where, {});
     }
+    /// The same; `subject` may be a consequence of another mistake (one_mistake.h).
+    template <size_t N>
+    diag::Diagnostic& report(diag::Message<N> message, SourceRange where, diag::MessageArgs<N> args,
+                             const Subject& subject) {
+        diag::Diagnostic& diagnostic = reports_.report(message.code, where, args);
+        reports_.noteMisfit(diagnostic, subject);
+        return diagnostic;
+    }
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     static void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
     void placeholder(const syntax::Node& node);
-    /// What every symbol of the module has.
+    /// Fills the members that every symbol of the module has.
     template <class S>
     S& fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local);
 

@@ -85,7 +85,7 @@ void Places::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
     if (t.isError()) return;
     if (t.flex != Flex::None) expressions_.settle(index, program_.num);
     if (!t.isScalar(TypeKind::Num)) {
-        report(say::IndexType, range(index), {typeName(*t.info)});
+        report(say::IndexType, range(index), {typeName(*t.info)}, {Misfit::Type, index});
         return;
     }
     const ConstValue* constant = t.info->constant;
@@ -134,7 +134,7 @@ Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     }
     if (error || e.base->kind != NodeKind::Name) return {}; // an index on a part is a syntax error
     if (type.rank == 0)
-        report(say::IndexNotArray, range(e), {text(*e.base), typeName(type)});
+        report(say::IndexNotArray, range(e), {text(*e.base), typeName(type)}, {Misfit::NotArray, e});
     else if (!countOk && !broken) {
         const SourceRange where = {range(*e.indices.front()).begin, range(*e.indices.back()).end};
         report(
@@ -179,7 +179,8 @@ Place Places::componentPlace(const ComponentExpr& e, const Type*) {
         return {};
     }
     if (base.type.type->kind != TypeKind::Record) {
-        report(say::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)});
+        report(say::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)},
+               {Misfit::NotRecord, e});
         return {};
     }
     const std::string_view name = context_.tree->text(e.name);

@@ -1,4 +1,4 @@
-// What would make a value fit: the end of a message, and something to write instead.
+// Proposals that make a value fit: the end of a message, and a replacement text.
 
 #include "frontend/sema/remedies.h"
 #include "frontend/sema/place.h"
@@ -30,7 +30,7 @@ bool isPredefined(const Type& type, std::string_view name) {
 
 Remedies::Remedies(State& state, const Parts& parts) : CheckerPart(state), scopes_(parts.scopes) {}
 
-// Predefined data that the number stands for: "100" for speeddata is v100.
+// Predefined data that the number means: "100" for speeddata is v100.
 std::string Remedies::namedByNumber(std::string_view number, const Type& want) {
     for (const char* letter : {"v", "z"}) {
         const DataSymbol* data = asData(at(state_.predefined, names_.intern(letter + std::string(number))));
@@ -117,7 +117,7 @@ Remedy Remedies::remedyFor(const Expr& whole, const DataType& found, const DataT
     if (from == TypeKind::String && want.type->isNumeric()) {
         const bool literal = e.kind == NodeKind::StringLiteral;
         const std::string value = literal ? decodeStringLiteral(written(e)) : std::string();
-        if (readsAsNumber(value)) return {": a number stands without quotes", value};
+        if (readsAsNumber(value)) return {": a number is written without quotes", value};
         return {": StrToVal reads a value from a text", ""};
     }
     if (from == TypeKind::Bool && want.type->isNumeric() && e.kind == NodeKind::BoolLiteral) {
@@ -151,7 +151,7 @@ Remedy Remedies::remedyFor(const RoutineSymbol& routine, const Expr& e, const Da
     if (want.rank > 0 && found.rank == 0) return {};
     Remedy remedy = remedyFor(e, found, want);
     if (param.mode == ParamMode::In || param.mode == ParamMode::Ref) return remedy;
-    // Where data is passed on no value will do, and to PERS and INOUT no part of a persistent.
+    // Parameters that pass data on take no value, and PERS and INOUT no part of a persistent.
     const bool part = isPlaceExpr(bare(e)) && (found.rank > 0 || !remedy.instead.empty());
     return part && param.mode == ParamMode::Var ? remedy : Remedy();
 }
@@ -177,7 +177,7 @@ Remedy Remedies::signalRemedy(const RoutineSymbol& routine, const DataType& foun
     return {};
 }
 
-// What a target is moved by is no operator.
+// A target cannot be displaced by an operator.
 std::string targetRemedy(BinaryOp op, const DataType& operand) {
     const bool moves = op == BinaryOp::Add || op == BinaryOp::Sub;
     return moves && isPredefined(*operand.type, "robtarget")

@@ -1,11 +1,11 @@
 #pragma once
-// Proposes how to mend a value that does not fit where it is.
+// Proposes how to correct a value that does not fit where it is.
 
 #include "frontend/sema/part.h"
 
 namespace rapid::sema {
 
-/// How a value that does not fit can be mended.
+/// How a value that does not fit can be corrected.
 struct Remedy {
     std::string words;   ///< the end of a message, ": write 1"; empty: none is known
     std::string instead; ///< to write for the expression; empty: nothing that is certain to compile
@@ -17,7 +17,7 @@ class Remedies : CheckerPart {
 
     /// Adds the fix that makes `name(e)` of an expression.
     void fixCall(diag::Diagnostic& diagnostic, const syntax::Expr& e, const std::string& name, bool certain);
-    /// What would make a value of type `found` fit.
+    /// Proposes a change that makes a value of type `found` fit.
     Remedy remedyFor(const syntax::Expr& whole, const DataType& found, const DataType& want);
     Remedy remedyFor(const RoutineSymbol& routine, const syntax::Expr& e, const DataType& found,
                      const DataSymbol& param);

@@ -124,7 +124,7 @@ bool isUnfinished(const SyntaxTree& tree, const Decl& decl) {
            tree.tokens[decl.first].kind == TokenKind::Identifier;
 }
 
-/// What is left of a routine without the first word, or without the first line: up to its END word.
+/// The rest of a routine without the first word, or without the first line: up to its END word.
 bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     constexpr TokenSet kEnds = {TokenKind::KwEndproc, TokenKind::KwEndfunc, TokenKind::KwEndtrap};
     if (decl.kind != NodeKind::ErrorDecl || kEnds.has(tree.tokens[decl.first].kind)) return false;
@@ -133,7 +133,7 @@ bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     return false;
 }
 
-/// What is wrong with the words of a line that also lacks its semicolon: a line that is being typed.
+/// An error in the words of a line that also lacks its semicolon: a line that is being typed.
 bool isOfUnfinished(const Diagnostic& d, uint32_t end) {
     constexpr Code kLastWord[] = {Code::UnknownName, Code::UnknownLabel, Code::UnknownParameter,
                                   Code::NotAProcedure};
@@ -252,7 +252,7 @@ void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
         if (d.file.get() == file && d.severity == diag::Severity::Error) said.push_back(&d);
     }
     if (said.size() < 2) return;
-    std::vector<Repeat> found = findRepeats(program_, modules, said);
+    std::vector<Repeat> found = findRepeats(program_, modules, said, reports_.misfits());
     putInOrder(found);
     for (Repeat& repeat : found) {
         if (repeat.guard) modules.front()->facts->open = true; // others may use it some day
@@ -264,9 +264,9 @@ void Repeats::gatherRepeats(std::span<Module* const> modules, size_t first) {
 void Repeats::mergeCauses() {
     std::vector<Repeat> repeats = std::exchange(repeats_, {});
     std::erase_if(repeats, [](const Repeat& r) { return r.guard && r.guard->users > 1; });
-    std::unordered_map<uint32_t, std::optional<Diagnostic>> fate; // by cause: what is reported instead
+    std::unordered_map<diag::CauseId, std::optional<Diagnostic>> fate; // by cause: what is reported instead
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
-    std::unordered_map<uint32_t, Repeat*> unknown; // by cause
+    std::unordered_map<diag::CauseId, Repeat*> unknown; // by cause
     for (const UnknownName& name : std::exchange(task_.unknownNames, {})) {
         if (name.explained) fate[name.cause] = std::nullopt;
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.

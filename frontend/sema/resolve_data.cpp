@@ -182,8 +182,9 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     if (!expressions_.fits(init, t, want)) {
         const auto names = typeNames(t.info->type, want);
         const Remedy remedy = remedies_.remedyFor(init, t.info->type, want);
-        remedies_.offer(report(say::InitialValueType, range(init), {names[0], names[1], symbol.name}), init,
-                        remedy);
+        remedies_.offer(report(say::InitialValueType, range(init), {names[0], names[1], symbol.name},
+                               {Misfit::Type, init}),
+                        init, remedy);
     } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }

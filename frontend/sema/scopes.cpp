@@ -1,4 +1,4 @@
-// What a name means: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
+// The meaning of a name: routine, module, task, configuration, library, in this order (manual 1.1.5, 1.2.2). Signals that
 // nothing declares are part of the controller's configuration and are recognised by how they are used.
 
 #include "frontend/sema/scopes.h"
@@ -19,8 +19,15 @@ Symbol* Scopes::lookup(NameId name) const {
     return lookupOutside(name);
 }
 
+Symbol* Scopes::inModule(NameId name) const {
+    Symbol* found = state_.scopes[context_.module->id]->names.find(name);
+    if (found || !state_.hasGuest || names_.intern(context_.module->name) != state_.guest) return found;
+    const Module* host = task_.moduleNames.find(state_.host);
+    return host ? state_.scopes[host->id]->names.find(name) : nullptr;
+}
+
 Symbol* Scopes::lookupOutside(NameId name) const {
-    if (Symbol* found = state_.scopes[context_.module->id]->names.find(name)) return found;
+    if (Symbol* found = inModule(name)) return found;
     if (!context_.module->predefined) {
         if (Symbol* found = at(task_.globals, name)) return found;
         if (DataSymbol* found = at(task_.configured, name)) return found;
@@ -29,7 +36,7 @@ Symbol* Scopes::lookupOutside(NameId name) const {
 }
 
 TypeSymbol* Scopes::findType(NameId name) const {
-    TypeSymbol* found = asType(state_.scopes[context_.module->id]->names.find(name));
+    TypeSymbol* found = asType(inModule(name));
     if (!found && !context_.module->predefined) found = asType(at(task_.globals, name));
     return found ? found : asType(at(state_.predefined, name));
 }

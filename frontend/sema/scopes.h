@@ -23,6 +23,10 @@ class Scopes : CheckerPart {
     void markAssigned(DataSymbol& symbol);
     /// Types are looked up on their own: data may have the name of one.
     TypeSymbol* findType(NameId name) const;
+
+  private:
+    /// Finds what the module declares, or the one whose guest it is.
+    Symbol* inModule(NameId name) const;
 };
 
 } // namespace rapid::sema

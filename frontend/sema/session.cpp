@@ -181,6 +181,10 @@ bool Session::change(const std::shared_ptr<const SourceFile>& file) {
     return found;
 }
 
+void Session::setGuest(const std::string& guest, const std::string& host) {
+    state_->analyzer->setGuest(guest, host);
+}
+
 const CheckedProgram& Session::program() const {
     return *state_->program;
 }

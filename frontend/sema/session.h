@@ -25,6 +25,11 @@ class Session {
     /// Takes another text (a SourceFile not used here before) for the file of the same path, in every task that has it. False: no task has such a file.
     bool change(const std::shared_ptr<const SourceFile>& file);
 
+    /// Names in the module `guest` of any task mean from now on what they mean in the module `host`, its LOCAL declarations
+    /// included. For texts that are looked at as if they stood in the host, such as the expressions of a debugger. Before the
+    /// change() that brings the text.
+    void setGuest(const std::string& guest, const std::string& host);
+
     /// Symbols, trees and facts of changed files are replaced by change(): keep no pointers to them.
     const CheckedProgram& program() const;
     /// Sorted as those of a Sink.

@@ -235,7 +235,7 @@ void SignalFinder::compared(const Expr& side, const Expr& number) {
     use.least = std::min(use.least, value);
 }
 
-// What can be said of the type of an expression before anything is checked; null: nothing.
+// The type of an expression as far as it is known before anything is checked; null: not known.
 const Type* SignalFinder::looseType(const Expr& expr) {
     const Expr& e = bare(expr);
     switch (e.kind) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a check share: the program, the names, the contexts, and where to report. Each check has one.
+// The shared state of a check: the program, the names, the contexts, and where to report. Each check has one.
 
 #include "frontend/sema/reports.h"
 
@@ -34,6 +34,8 @@ struct State {
     std::vector<std::unique_ptr<ModuleScope>> scopes; ///< by Module::id
     bool keepsFacts = false; ///< facts are kept when other files change: they must not share memory
     uint32_t lastStamp = 0;  ///< of a check of a file
+    NameId guest = 0, host = 0; ///< Session::setGuest, when there is one
+    bool hasGuest = false;
 
     Context context;
     TaskContext task;

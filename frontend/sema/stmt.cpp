@@ -167,7 +167,7 @@ bool Statements::forStmt(const ForStmt& s) {
         const Typed t = expressions_.expr(*e);
         if (t.isError()) return;
         if (!expressions_.fits(*e, t, {program_.num, 0, {}}))
-            report(say::ForBoundType, range(*e), {what, typeName(*t.info)});
+            report(say::ForBoundType, range(*e), {what, typeName(*t.info)}, {Misfit::Type, *e});
     };
     bound(s.from, "start value");
     bound(s.to, "end value");
@@ -224,7 +224,9 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
         if (!expressions_.fits(*value, t, type)) {
             const auto names = typeNames(t.info->type, subject.info->type);
             const Remedy remedy = remedies_.remedyFor(*value, t.info->type, type);
-            remedies_.offer(report(say::TestValueType, range(*value), {names[0], names[1]}), *value, remedy);
+            remedies_.offer(
+                report(say::TestValueType, range(*value), {names[0], names[1]}, {Misfit::Type, *value}),
+                *value, remedy);
             continue;
         }
         const ConstValue* constant = info(*value).constant;
@@ -279,19 +281,21 @@ void Statements::assign(const AssignStmt& s) {
     const std::string conversion = numDnumRemedy(value, want);
     const auto names = typeNames(value.info->type, want);
     if (!conversion.empty()) {
-        remedies_.fixCall(report(say::NumDnumAssign, range(*s.value), {names[0], names[1], conversion}),
+        remedies_.fixCall(report(say::NumDnumAssign, range(*s.value), {names[0], names[1], conversion},
+                                 {Misfit::Type, *s.value}),
                           *s.value, conversion, conversion == "NumToDnum");
         return;
     }
     const Remedy remedy = remedies_.remedyFor(*s.value, value.info->type, want);
-    diag::Diagnostic& d = report(say::AssignType, range(*s.value), {names[0], names[1]});
+    diag::Diagnostic& d =
+        report(say::AssignType, range(*s.value), {names[0], names[1]}, {Misfit::Type, *s.value});
     remedies_.offer(d, *s.value, remedy);
     noteDeclared(d, *target.root);
 }
 
 namespace {
 
-/// What other languages call what a function gives back.
+/// Names that other languages use for the result of a function.
 bool isWordForResult(std::string_view folded) {
     return folded == "result" || folded == "ret" || folded == "retval" || folded == "returnvalue";
 }
@@ -336,7 +340,8 @@ bool Statements::assignable(const Place& place, const Expr& target) {
         noteDeclared(report(say::AssignLoopVariable, range(target), {root.name}), root);
     } else if (root.dataKind == DataKind::Const && !parameter) {
         if (root.init) // without a value CONST itself is the mistake
-            noteDeclared(report(say::AssignConstant, range(target), {root.name}), root);
+            noteDeclared(report(say::AssignConstant, range(target), {root.name}, {Misfit::Access, target}),
+                         root);
     } else if (!isValueType(type) && type.kind != TypeKind::AnyType) {
         report(say::AssignNonValue, range(target), {text(target), type.name});
     } else {
@@ -458,7 +463,7 @@ bool Statements::predefinedCall(const RoutineSymbol& routine, TokenIndex name) {
     return routine.flow == Flow::GoesOn || routine.flow == Flow::Stops;
 }
 
-/// `name();` and `name(a, b);`: the parentheses are no part of an argument.
+/// `name();` and `name(a, b);`: the parentheses are not part of an argument.
 bool Statements::isParenthesised(const CallStmt& s) const {
     const TokenIndex open = s.name + 1;
     return context_.tree->tokens[open].kind == TokenKind::LeftParen &&

@@ -47,8 +47,9 @@ void FlowStatements::returnStmt(const ReturnStmt& s) {
     if (expressions_.fits(*s.value, t, routine.returnType)) return;
     const auto names = typeNames(t.info->type, routine.returnType);
     const Remedy remedy = remedies_.remedyFor(*s.value, t.info->type, routine.returnType);
-    remedies_.offer(report(say::ReturnType, range(*s.value), {names[0], names[1], routine.name}), *s.value,
-                    remedy);
+    remedies_.offer(report(say::ReturnType, range(*s.value), {names[0], names[1], routine.name},
+                           {Misfit::Type, *s.value}),
+                    *s.value, remedy);
 }
 
 void FlowStatements::checkErrorNumber(const Expr& e, const char* what) {

@@ -1,4 +1,4 @@
-// What was probably meant by a misspelt name.
+// The probable meaning of a misspelt name.
 
 #include "frontend/sema/suggestions.h"
 
@@ -22,7 +22,7 @@ constexpr Word kInstructionWords[] = {{"goto", "GOTO"},   {"return", "RETURN"}, 
                                       {"endif", "ENDIF"}, {"endwhile", "ENDWHILE"}, {"endfor", "ENDFOR"}};
 constexpr Word kValueWords[] = {{"true", "TRUE"}, {"false", "FALSE"}};
 
-/// What programmers of other languages write for a predefined name.
+/// The predefined name for a word of other languages.
 struct ForeignName {
     std::string_view folded, meant;
 };

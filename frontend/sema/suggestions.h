@@ -5,7 +5,7 @@
 
 namespace rapid::sema {
 
-/// What a name should be where it is used.
+/// The kind of name that a use needs.
 enum class Wanted : uint8_t { Data, Signal, Type, Procedure, Function, Trap };
 
 struct Suggestion {

@@ -87,7 +87,7 @@ enum class Storage : uint8_t {
     RoutineData, ///< declared in a routine
     Parameter,
     LoopVariable,
-    /// Configured object, resolved by name when the program is loaded: an I/O signal, or, as `type` tells, a
+    /// Configured object, resolved by name when the program is loaded: an I/O signal, or, depending on `type`, a
     /// mechanical unit (`mecunit`) or the identity of a task (`taskid`).
     Signal,
     SystemVariable ///< ERRNO, INTNO ...
@@ -108,8 +108,9 @@ struct DataSymbol : Symbol {
     bool requiredAlternative = false; ///< built-ins: `a | b` between required parameters
     bool assigned = false;            ///< some statement writes it, or it is passed on as VAR, INOUT or PERS
     bool deferred = false; ///< parameter of a built-in whose expression is evaluated again and again
-    ParamClass accepts = ParamClass::Any; ///< parameters of type `anytype`
-    Meaning meaning = Meaning::None;      ///< predefined data
+    ParamClass accepts = ParamClass::Any;              ///< parameters of type `anytype`
+    Meaning meaning = Meaning::None;                   ///< predefined data
+    LanguageError languageError = LanguageError::None; ///< predefined error numbers
     Progress valueProgress = Progress::Pending;
 
   private:
@@ -168,7 +169,7 @@ struct RoutineSymbol : Symbol {
     std::string raisedErrors;                    ///< natives: "ERR_A, ERR_B"
     bool uncertain = false;                      ///< built-ins: the form of the call is not confirmed
     uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
-    const DataSymbol* textLengthParam = nullptr; ///< parameter that tells how many
+    const DataSymbol* textLengthParam = nullptr; ///< parameter that says how many
     std::string option;                          ///< RobotWare option it needs
     std::string documentation;
     std::vector<DataSymbol*> formerParams; ///< of an earlier check, to be used again

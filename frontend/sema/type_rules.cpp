@@ -1,4 +1,4 @@
-// What types are and which belong together.
+// Kinds of types, and which types are compatible.
 
 #include "frontend/sema/type_rules.h"
 

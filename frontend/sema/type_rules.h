@@ -1,5 +1,5 @@
 #pragma once
-// What types are and which belong together.
+// Kinds of types, and which types are compatible.
 
 #include "frontend/sema/checked.h"
 

@@ -118,7 +118,7 @@ bool UnknownNames::countedAbove(TokenIndex token, NameId name) {
     return false;
 }
 
-// "G ripOpen;", "p-Pick": the word and the one behind it are a name that is known. True also at the second word.
+// "G ripOpen;", "p-Pick": the word and the next one together are a known name. True also at the second word.
 bool UnknownNames::reportTorn(TokenIndex token) {
     if (token == tornUntil_ && tornTree_ == context_.tree) return true;
     const auto& tokens = context_.tree->tokens;
@@ -190,9 +190,9 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
 }
 
 void UnknownNames::reportMayBeDeclared(TokenIndex token, const std::string& hint) {
-    const std::string where = task_.missingModules.empty()
-                                  ? "a module that is not here, such as a system module"
-                                  : listed(task_.missingModules);
+    const std::string where = !task_.missingModules.empty() ? listed(task_.missingModules)
+                              : task_.bindsLate ? "a module that is loaded later (BindRef of the task is off)"
+                                                : "a module that is not here, such as a system module";
     report(say::MayBeDeclared, range(token), {text(token), where, hint});
 }
 
@@ -220,7 +220,7 @@ Symbol* UnknownNames::reportUnknownData(TokenIndex token, NameId name, const Typ
                 hint = "; a loop variable is known only between FOR and ENDFOR";
             else if (looksLikeSignal(names_.folded(name)))
                 hint = state_.options.configurationKnown
-                           ? "; if it is a signal, define it in EIO.cfg and pass that with --config"
+                           ? "; if it is a signal, define it in EIO.cfg and pass that file with --config"
                            : "; if it is a signal, pass the configuration with --config=EIO.cfg";
             reportUnknown(say::UnknownName, token, name, Wanted::Data, hint);
         }
@@ -254,7 +254,7 @@ void UnknownNames::reportSignal(TokenIndex token, NameId name, const Type& type,
     if (!state_.options.configurationKnown) {
         report(say::SignalUnknown, range(token),
                {perhaps ? "'" + written + "'" : "signal '" + written + "'",
-                perhaps ? "may be a signal" : "is taken as configured"});
+                perhaps ? "but may be a signal" : "and is assumed to be configured"});
         return;
     }
     const Suggestion near = suggestions_.suggestion(name, Wanted::Signal);

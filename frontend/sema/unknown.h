@@ -6,7 +6,7 @@
 
 namespace rapid::sema {
 
-/// What a name that nothing declares was found to be. Elsewhere: a module that is not here may declare it.
+/// The presumed meaning of a name that nothing declares. Elsewhere: a module that is not here may declare it.
 enum class Meant : uint8_t { Unknown, Keyword, Elsewhere };
 
 class UnknownNames : CheckerPart {

@@ -44,7 +44,7 @@ void giveBlock(char* data, size_t) {
 
 #else
 
-/// Free memory by address; neighbours are joined. What was taken from the system stays with the process.
+/// Free memory by address; neighbours are joined. Memory from the system stays with the process.
 class BlockPool {
   public:
     char* take(size_t size) {
@@ -117,7 +117,7 @@ void* Arena::allocateInNewBlock(size_t size, size_t align) {
     total_ += bytes;
     const auto begin = reinterpret_cast<uintptr_t>(blocks_.back().data);
     const uintptr_t at = (begin + align - 1) & ~(static_cast<uintptr_t>(align) - 1);
-    // Go on where more room is left.
+    // Continue where more room is left.
     if (next_ == 0 || begin + bytes - (at + size) >= end_ - next_) {
         next_ = at + size;
         end_ = begin + bytes;

@@ -1,5 +1,5 @@
 #pragma once
-// What a process that works on very much text asks of the memory allocator of the system.
+// Settings of the system's memory allocator for a process that works on very much text.
 
 namespace rapid {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What two versions of a text have in common.
+// The common parts of two versions of a text.
 
 #include <algorithm>
 #include <cstddef>

@@ -130,7 +130,7 @@ bool hasManyControls(std::string_view bytes) {
     return count >= 4 && static_cast<size_t>(count) * 50 >= bytes.size();
 }
 
-/// Encrypted modules begin with 0xFC, 0xFD or 0xFE and are no text. A Latin-1 text may begin with that letter, and UTF-16
+/// Encrypted modules begin with 0xFC, 0xFD or 0xFE and are not text. A Latin-1 text may begin with that letter, and UTF-16
 /// with FE FF.
 bool looksEncrypted(std::string_view bytes) {
     if (bytes.empty() || bytes.starts_with("\xFE\xFF")) return false;

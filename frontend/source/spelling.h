@@ -1,5 +1,5 @@
 #pragma once
-// How near two words are: the measure behind "did you mean" and misspelt keywords.
+// The distance of two words: the measure of "did you mean" and of misspelt keywords.
 
 #include <cstddef>
 #include <string_view>

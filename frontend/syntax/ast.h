@@ -27,7 +27,7 @@ struct Token {
     TokenKind kind : 8 = TokenKind::EndOfFile;
 };
 static_assert(sizeof(Token) == 8);
-/// What is longer (it is a mistake anyhow) is cut; the rest counts as white space.
+/// Longer text (it is a mistake anyhow) is cut; the rest counts as white space.
 inline constexpr size_t kMaxTokenLength = 0xFFFFFF;
 
 using TokenIndex = uint32_t;
@@ -306,7 +306,7 @@ struct ModuleDecl : Node {
 /// One parsed file: source, tokens, nodes. Some files hold several modules.
 struct SyntaxTree {
     std::shared_ptr<const SourceFile> source;
-    /// In the arena; the last one is EndOfFile. Those of a PlainAggregate, once its elements are made, stand behind it,
+    /// In the arena; the last one is EndOfFile. Those of a PlainAggregate, once its elements are made, are after it,
     /// with an EndOfFile of their own.
     std::span<Token> tokens;
     size_t tokenRoom = 0; ///< for how many there is room in their place; 0 means no more than there are
@@ -315,7 +315,7 @@ struct SyntaxTree {
     std::vector<std::vector<PlainPiece>> shapes;
     std::vector<ModuleDecl*> modules;
     uint32_t exprCount = 0; ///< it grows when elements of plain aggregates are made
-    /// Where lines begin in which something could not be read, which is reported; in order. What is wrong with names and
+    /// Beginnings of lines in which something could not be read, which is reported; in order. Errors of names and
     /// types there follows from that.
     std::vector<uint32_t> unclearLines;
     /// Bytes of a line that count as one in unclearLines: the mistakes of a file in one line have nothing to do with each

@@ -164,7 +164,8 @@ void Lexer::readNumber() {
         while (*p_ == '.' || kWordChars[byteAt(p_)] || isLatin1Letter(p_))
             ++p_, skipContinuation();
     }
-    if (!valid) error(diag::Code::BadNumber, start, p_, {std::string(slice(start, p_).substr(0, 40))});
+    if (!valid)
+        addError(diag::Code::BadNumber, start, p_, {}, {}); // the parser reports it where it reads the number
     push(TokenKind::NumLiteral, start);
 }
 
@@ -191,7 +192,7 @@ void Lexer::readString() {
                 ++p_;
             }
         } else if (isLineEnd(c) || p_ >= end_) {
-            error(diag::Code::UnterminatedString, start, p_);
+            error(say::UnterminatedString, start, p_);
             return push(TokenKind::Error, start);
         } else {
             ++p_;
@@ -199,7 +200,7 @@ void Lexer::readString() {
     }
     ++p_;
     const size_t bytes = static_cast<size_t>(p_ - start) - 2 - saved;
-    if (bytes > kStringCapacity) error(diag::Code::StringTooLong, start, p_, {std::to_string(bytes)});
+    if (bytes > kStringCapacity) error(say::StringTooLong, start, p_, {std::to_string(bytes)});
     push(TokenKind::StringLiteral, start);
 }
 
@@ -210,7 +211,7 @@ void Lexer::reportEscape() {
         while ((byteAt(to) & 0xC0) == 0x80)
             ++to;
     }
-    error(diag::Code::BadStringEscape, p_, to, {std::string(slice(p_, to))});
+    error(say::BadStringEscape, p_, to, {std::string(slice(p_, to))});
 }
 
 bool Lexer::readPlainAggregate() {
@@ -293,7 +294,7 @@ void Lexer::readFileHeader() {
         p_ = start + close + 3;
     } else {
         p_ = start + 3;
-        error(diag::Code::UnclosedFileHeader, start, p_);
+        error(say::UnclosedFileHeader, start, p_);
         while (p_ < end_ && !equalsNoCase(slice(p_, end_).substr(0, 6), "MODULE"))
             ++p_;
     }

@@ -36,7 +36,7 @@ inline constexpr size_t kMaxLexErrors = 64;
 /// it does in the text of a SourceFile. `wholeAggregates`: see ParseOptions.
 LexResult lex(std::string_view text, bool wholeAggregates = false);
 
-/// The tokens of a text that begin at `from` or behind it and before `to`, which both are starts of lines; with the
+/// The tokens of a text that begin at `from` or after it and before `to`, which both are starts of lines; with the
 /// EndOfFile when the text ends before `to`. `before` is the kind of the token before them.
 LexResult lexPart(std::string_view text, size_t from, size_t to, TokenKind before);
 

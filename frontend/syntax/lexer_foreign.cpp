@@ -42,7 +42,7 @@ void Lexer::foreign(const char* start, std::string_view expected, std::string_vi
         edit = (word && start > begin_ && classAt(start - 1) != CharClass::Space ? " " : "") +
                std::string(fix) + (word && classAt(p_) != CharClass::Space ? " " : "");
     }
-    error(diag::Code::ForeignSpelling, start, p_,
+    error(say::ForeignSpelling, start, p_,
           {std::string(slice(start, p_).substr(0, kShown)), std::string(expected)}, std::move(edit));
 }
 
@@ -152,7 +152,7 @@ bool Lexer::readSingleQuote() {
     p_ = close + 1;
     const std::string_view content = slice(start + 1, close);
     const bool plain = content.find_first_of("\"\\") == std::string_view::npos;
-    error(diag::Code::ForeignSpelling, start, p_,
+    error(say::ForeignSpelling, start, p_,
           {std::string(slice(start, p_).substr(0, kShown)), "a string between '\"'"},
           plain ? std::optional('"' + std::string(content) + '"') : std::nullopt);
     push(TokenKind::Error, start);
@@ -180,7 +180,7 @@ bool Lexer::readTypographic() {
         meant.append(static_cast<size_t>(next - p_) + 1, ' ');
         p_ = next + more->utf8.size();
     }
-    error(diag::Code::ForeignSpelling, start, p_,
+    error(say::ForeignSpelling, start, p_,
           {space ? showCharacter(first->utf8) : std::string(first->utf8),
            space ? "a plain space" : fmt::format("'{}'", first->meant)},
           std::move(meant));
@@ -199,7 +199,7 @@ void Lexer::readTypographicQuote() {
     const bool closed = close < end_ && !isLineEnd(*close);
     const bool plain = closed && inside.find('\\') == std::string_view::npos;
     p_ = closed ? close + quoteAt(close) : close;
-    error(diag::Code::ForeignSpelling, start, p_,
+    error(say::ForeignSpelling, start, p_,
           {std::string(slice(start, p_).substr(0, kShown)), "a string between '\"'"},
           plain ? std::optional('"' + std::string(inside) + '"') : std::nullopt);
     push(TokenKind::Error, start);
@@ -213,7 +213,7 @@ void Lexer::readUnderscoreName() {
     std::string name(slice(start, p_).substr(0, kShown));
     if (std::find(badNames_.begin(), badNames_.end(), name) == badNames_.end()) {
         if (badNames_.size() < kMaxLexErrors) badNames_.push_back(name);
-        error(diag::Code::NameStart, start, p_, {std::move(name)});
+        error(say::NameStart, start, p_, {std::move(name)});
     }
     push(TokenKind::Identifier, start);
 }
@@ -228,7 +228,7 @@ void Lexer::readJunk() {
             skipContinuation();
             if (foreignCharacter(slice(p_, end_))) break;
         }
-        if (!quiet_) error(diag::Code::UnexpectedCharacter, start, p_, {showCharacter(slice(start, p_))});
+        if (!quiet_) error(say::UnexpectedCharacter, start, p_, {showCharacter(slice(start, p_))});
         reported_ = p_;
         push(TokenKind::Error, start);
     }

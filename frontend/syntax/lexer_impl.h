@@ -1,6 +1,6 @@
 #pragma once
 // The lexer's class. lexer.cpp reads what RAPID has, lexer_foreign.cpp what other languages, word processors and damaged
-// files have. What a character is never hangs on what could not be read before it: only reports are one a line.
+// files have. The class of a character never depends on unreadable text before it: only reports are one a line.
 
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/token_set.h"
@@ -9,6 +9,8 @@
 #include <array>
 
 namespace rapid::syntax {
+
+namespace say = diag::say;
 
 enum class CharClass : uint8_t {
     Junk,
@@ -103,8 +105,16 @@ class Lexer {
         token.kind = kind;
     }
 
-    void error(diag::Code code, const char* from, const char* to, std::vector<std::string> args = {},
+    template <size_t N>
+    void error(diag::Message<N> message, const char* from, const char* to, diag::MessageArgs<N> args,
                std::optional<std::string> fix = {}) {
+        addError(message.code, from, to, {args, args + N}, std::move(fix));
+    }
+    void error(diag::Message<0> message, const char* from, const char* to) {
+        addError(message.code, from, to, {}, {});
+    }
+    void addError(diag::Code code, const char* from, const char* to, std::vector<std::string> args,
+                  std::optional<std::string> fix) {
         if (quiet_ || result_.errors.size() >= kMaxLexErrors) return;
         const SourceRange range{static_cast<uint32_t>(from - begin_), static_cast<uint32_t>(to - begin_)};
         result_.errors.push_back({code, range, std::move(args), std::move(fix)});
@@ -156,11 +166,11 @@ class Lexer {
     void foreign(const char* start, std::string_view expected, std::string_view fix);
     /// After the first character of a punctuation; false when the second one does not belong to it.
     bool readForeign(const char* start);
-    /// Is the "!=" here an operator? It is, when an operand stands before it and code goes on behind it.
+    /// Is the "!=" here an operator? It is, when an operand precedes it and code continues after it.
     bool isNotEqual() const;
     /// "!="
     void readNotEqual();
-    /// At the beginning of a line or behind an instruction, where nothing but a comment goes on.
+    /// At the beginning of a line or after an instruction, where only a comment can follow.
     bool mayBeRemark(const char* start) const;
     /// `&` `~` `^` and text in single quotes; false for other characters.
     bool readForeignCharacter();
@@ -180,7 +190,7 @@ class Lexer {
     const char* end_;
     const char* padding_; ///< white space and end marks from here on
     const char* p_;
-    /// Behind unreadable characters that were reported, or further on in their line; null when the line has ended.
+    /// After unreadable characters that were reported, or further on in their line; null when the line has ended.
     const char* reported_ = nullptr;
     bool quiet_ = false; ///< the line has its report
     bool wholeAggregates_ = false;

@@ -70,7 +70,7 @@ NumberValue numberValue(std::string_view text) {
         result.value = static_cast<double>(mantissa) / kPowersOfTen[decimals];
         return result;
     }
-    // 9E9 stands in every taught point.
+    // 9E9 occurs in every taught point.
     const bool shortExponent =
         i + 2 == text.size() && (text[i] | 0x20) == 'e' && text[i + 1] >= '0' && text[i + 1] <= '9';
     if (shortExponent && digits > 0 && digits <= 15 && decimals == 0) {

@@ -19,20 +19,20 @@ bool checkEncoding(const std::shared_ptr<const SourceFile>& source, diag::Sink& 
         // FF FE and FE FF, the marks of UTF-16, were read as Latin-1.
         const bool utf16 = text.starts_with("\xC3\xBF\xC3\xBE") || text.starts_with("\xC3\xBE\xC3\xBF");
         if (source->isEncrypted()) {
-            sink.report(Code::EncryptedModule, source, {0, 0}, {source->path()});
+            sink.report(say::EncryptedModule, source, {0, 0}, {source->path()});
             return false;
         }
-        sink.report(utf16 ? Code::Utf16File : Code::BinaryFile, source, {0, 0});
+        sink.report(utf16 ? say::Utf16File : say::BinaryFile, source, {0, 0});
         return false;
     }
     if (source->badUtf8Offset() >= 0) {
         const auto at = static_cast<uint32_t>(source->badUtf8Offset());
-        // The byte stands there as the two bytes of its Latin-1 character.
+        // In the text the byte became the two bytes of its Latin-1 character.
         const unsigned byte = (static_cast<unsigned char>(text[at]) & 3u) << 6 |
                               (static_cast<unsigned char>(text[at + 1]) & 0x3Fu);
-        sink.report(Code::BadUtf8, source, {at, at + 2}, {fmt::format("0x{:02X}", byte)});
+        sink.report(say::BadUtf8, source, {at, at + 2}, {fmt::format("0x{:02X}", byte)});
     } else if (source->encoding() == Encoding::Utf8Bom) {
-        sink.report(Code::ByteOrderMark, source, {0, 0});
+        sink.report(say::ByteOrderMark, source, {0, 0});
     }
     return true;
 }

@@ -12,7 +12,7 @@ struct ParseOptions {
     bool declarations = false;
     /// The tree of an earlier version of the file, if there is one: saves time, changes nothing.
     const SyntaxTree* earlier = nullptr;
-    /// Plain aggregates behind ':=' are one token each when the file has no mistakes: half the time and memory for files
+    /// Plain aggregates after ':=' are one token each when the file has no mistakes: half the time and memory for files
     /// of taught points, for who does not look at tokens.
     bool wholeAggregates = false;
 };
@@ -21,7 +21,7 @@ struct ParseOptions {
 std::unique_ptr<SyntaxTree> parse(std::shared_ptr<const SourceFile> source, diag::Sink& sink,
                                   const ParseOptions& options = {});
 
-/// An expression that stands alone, for debuggers and for values given as text.
+/// An expression on its own, for debuggers and for values given as text.
 struct ParsedExpr {
     std::unique_ptr<SyntaxTree> tree; ///< owns `expr`; it has no modules
     Expr* expr = nullptr;             ///< never null; an ErrorExpr when nothing could be read

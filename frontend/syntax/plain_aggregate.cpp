@@ -8,7 +8,7 @@ namespace rapid::syntax {
 
 namespace {
 
-/// The tokens of which a whole aggregate consists, behind all others of the tree; the place of the first.
+/// The tokens of a whole aggregate, after all others of the tree; the place of the first.
 TokenIndex appendTokens(SyntaxTree& tree, TokenIndex whole) {
     const SourceRange range = tree.range(whole);
     std::vector<Token> parts = lexPart(tree.source->text(), range.begin, range.end, TokenKind::Assign).tokens;

@@ -10,7 +10,7 @@ namespace rapid::syntax {
 
 enum class PlainPiece : uint8_t { Open, Close, Comma, Number, String, Bool, Other };
 
-/// Over the text: for aggregates that are one token. A NUL must follow the text. What a plain aggregate cannot hold is PlainPiece::Other, also what is only unusual.
+/// Over the text: for aggregates that are one token. A NUL must follow the text. Anything else, also if only unusual, is PlainPiece::Other.
 /// `known`: somebody went over the text before, there is nothing unusual in it.
 template <bool known> class PlainText {
   public:
@@ -38,7 +38,7 @@ template <bool known> class PlainText {
         default: return number();
         }
     }
-    /// Behind the last piece.
+    /// After the last piece.
     const char* end() const { return p_; }
     /// The last piece, without its sign.
     std::string_view text() const { return {begin_, static_cast<size_t>(p_ - begin_)}; }
@@ -132,7 +132,7 @@ template <bool known> class PlainTokens {
         if (piece == PlainPiece::Number) return known || isSmall(text()) ? piece : PlainPiece::Other;
         return negative_ ? PlainPiece::Other : piece;
     }
-    /// Behind the last piece.
+    /// After the last piece.
     const Token* end() const { return at_; }
     std::string_view text() const { return {text_ + last_->offset, last_->length}; }
     bool isNegative() const { return negative_; }
@@ -174,7 +174,7 @@ template <bool known> class PlainTokens {
     bool negative_ = false;
 };
 
-/// Goes behind the ']' of a plain aggregate; false when there is none. `note` is called for each piece.
+/// Moves past the ']' of a plain aggregate; false when there is none. `note` is called for each piece.
 template <class Pieces, class Note> bool skipPlainAggregate(Pieces& pieces, Note&& note) {
     constexpr uint32_t kMaxPlainDepth = 32;
     uint32_t depth = 0;

@@ -219,7 +219,7 @@ std::string printTree(const SyntaxTree& tree) {
 }
 
 namespace {
-/// What stands behind it was made later (SyntaxTree::tokens).
+/// Later tokens were made afterwards (SyntaxTree::tokens).
 bool isEnd(const SyntaxTree& tree, TokenIndex i) {
     return tree.tokens[i].kind == TokenKind::EndOfFile;
 }

@@ -1,5 +1,5 @@
 // Tokens of a changed file from those of its earlier version (lexer.h). No token but the file header spans a line end, and
-// nothing that a line holds depends on other lines but `%%%` behind ENDMODULE.
+// nothing that a line holds depends on other lines but `%%%` after ENDMODULE.
 
 #include "frontend/source/same_ends.h"
 #include "frontend/syntax/lexer.h"

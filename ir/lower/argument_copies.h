@@ -1,6 +1,6 @@
 #pragma once
 // Which IN parameters are copied. The manual calls them values; passed by address, they are values as long as nothing writes
-// the argument before the routine returns. docs/decisions.md 10.
+// the argument before the routine returns. docs/language/arguments.md.
 
 #include "frontend/sema/checked.h"
 

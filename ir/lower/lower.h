@@ -23,8 +23,12 @@ struct Options {
     /// For the stepping profile (design chapter 4): every statement can be chosen to go on with, data of routines
     /// lie in memory and are described, BACKWARD handlers are compiled.
     bool stepping = false;
+    /// Every routine can be called by name, for the expressions of a debugger.
+    bool callsByName = false;
     /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.
     std::set<std::string> eventRoutines;
+    /// Is this routine called from outside the program (a test)? Then it is found by name. Empty: none is.
+    std::function<bool(const sema::RoutineSymbol&)> calledFromOutside;
     /// Modules that are installed once for all tasks: their data, except TASK data, are shared. Lower case.
     std::set<std::string> sharedModules;
 };

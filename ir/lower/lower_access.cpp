@@ -7,11 +7,13 @@ namespace rapid::lower {
 using namespace syntax;
 using ir::Op;
 using sema::DataSymbol;
+using sema::LanguageError;
 using sema::Storage;
 
 void RoutineLowering::checkPresent(const Slot& slot) {
     if (!slot.optional) return;
-    b_.check(b_.binary(Op::INe, parameter(slot.param), b_.nullPtr()), program_.errorNumber("ERR_NOTPRES"));
+    b_.check(b_.binary(Op::INe, parameter(slot.param), b_.nullPtr()),
+             program_.errorNumber(LanguageError::AbsentArgument));
 }
 
 ir::ValueId RoutineLowering::objectAddress(const Slot& slot) {
@@ -80,7 +82,7 @@ ir::ValueId RoutineLowering::dimValue(const Place& p, int k) {
 }
 
 ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t knownDim, bool& safe) {
-    const int32_t outOfBounds = program_.errorNumber("ERR_OUTOFBND");
+    const int32_t outOfBounds = program_.errorNumber(LanguageError::Index);
     if (isIncomplete(index)) {
         reachPlaceholder(unparen(index));
         return b_.constI32(0);
@@ -100,7 +102,7 @@ ir::ValueId RoutineLowering::lowerIndex(const Expr& index, ValueId dim, int32_t 
     const ValueId back = b_.convert(Op::SIntToFloat, isDnum ? ir::kF64 : ir::kF32, number);
     const ValueId zeroBased = b_.binary(Op::ISub, number, one);
     b_.check(b_.binary(Op::IULt, zeroBased, dim), outOfBounds);
-    b_.check(b_.binary(Op::FEq, back, value), program_.errorNumber("ERR_INT_NOTVAL"));
+    b_.check(b_.binary(Op::FEq, back, value), program_.errorNumber(LanguageError::NotWhole));
     return zeroBased;
 }
 

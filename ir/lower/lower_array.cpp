@@ -6,6 +6,7 @@ namespace rapid::lower {
 
 using namespace syntax;
 using ir::Op;
+using sema::LanguageError;
 
 namespace {
 
@@ -47,7 +48,7 @@ void RoutineLowering::checkSameSize(const Place& a, const Place& b) {
     for (int k = 0; k < a.type.rank; ++k)
         if (a.type.dims[k] == 0 || b.type.dims[k] == 0)
             b_.check(b_.binary(Op::IEq, dimValue(a, k), dimValue(b, k)),
-                     program_.errorNumber("ERR_ARRAY_SIZE"));
+                     program_.errorNumber(LanguageError::ArraySize));
 }
 
 /// Before anything is stored: does the value have the size of the place?
@@ -57,7 +58,7 @@ void RoutineLowering::checkShape(const Expr& outer, const Place& target) {
     const std::span<Expr*> elements = as<AggregateExpr>(expr).elements();
     if (target.type.dims[0] == 0)
         b_.check(b_.binary(Op::IEq, dimValue(target, 0), b_.constI32(static_cast<int32_t>(elements.size()))),
-                 program_.errorNumber("ERR_ARRAY_SIZE"));
+                 program_.errorNumber(LanguageError::ArraySize));
     if (target.type.rank == 1) return;
     for (const Expr* element : elements)
         checkShape(*element, rowOf(target, target.addr));

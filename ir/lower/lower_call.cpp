@@ -10,6 +10,7 @@ using ir::Op;
 using sema::BoundArg;
 using sema::BoundCall;
 using sema::DataSymbol;
+using sema::LanguageError;
 
 const BoundArg* RoutineLowering::findArg(const BoundCall& call, std::string_view name) const {
     const std::string wanted = foldCase(name);
@@ -262,7 +263,7 @@ ir::ValueId RoutineLowering::lowerPresent(const BoundCall& call) {
 ir::ValueId RoutineLowering::lowerDim(const BoundCall& call) {
     const Place p = place(*call.args[0].value);
     const Expr& number = unparen(*call.args[1].value);
-    const int32_t illegal = program_.errorNumber("ERR_ILLDIM");
+    const int32_t illegal = program_.errorNumber(LanguageError::Dimension);
     if (const auto* constant = info(number).constant) {
         const int k = static_cast<int>(constant->number);
         if (k >= 1 && k <= p.type.rank) return b_.convert(Op::SIntToFloat, ir::kF32, dimValue(p, k - 1));

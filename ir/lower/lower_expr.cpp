@@ -8,6 +8,7 @@ namespace rapid::lower {
 
 using namespace syntax;
 using ir::Op;
+using sema::LanguageError;
 using sema::TypeKind;
 
 ir::ValueId RoutineLowering::constantScalar(const sema::ConstValue& value, ir::TypeId type) {
@@ -120,7 +121,7 @@ ir::ValueId RoutineLowering::lowerArithmetic(BinaryOp op, ValueId a, ValueId b, 
         const ir::Inst& divisor = routine_.insts[b];
         if (divisor.op != Op::Const || divisor.number == 0) {
             const ValueId zero = isDnum ? b_.constF64(0) : b_.constF32(0);
-            b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber("ERR_DIVZERO"));
+            b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber(LanguageError::Divisor));
         }
         return b_.binary(Op::FDiv, a, b);
     }
@@ -133,8 +134,8 @@ ir::ValueId RoutineLowering::lowerArithmetic(BinaryOp op, ValueId a, ValueId b, 
 /// correctly by the rounded division, because it differs from any integer by more than half a unit in the last place.
 ir::ValueId RoutineLowering::lowerIntegerDivision(bool modulo, ValueId a, ValueId b, bool isDnum) {
     const ValueId zero = isDnum ? b_.constF64(0) : b_.constF32(0);
-    const int32_t notInteger = program_.errorNumber("ERR_INT_NOTVAL");
-    b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber("ERR_DIVZERO"));
+    const int32_t notInteger = program_.errorNumber(LanguageError::NotWhole);
+    b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber(LanguageError::Divisor));
     b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, a), a), notInteger);
     if (routine_.insts[b].op != Op::Const)
         b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, b), b), notInteger);
@@ -246,7 +247,7 @@ bool RoutineLowering::isCheap(const Expr& outer) const {
     }
 }
 
-/// AND and OR do not evaluate the right operand when the left one decides (docs/decisions.md).
+/// AND and OR do not evaluate the right operand when the left one decides (decision 16).
 ir::ValueId RoutineLowering::lowerShortCircuit(const BinaryExpr& expr) {
     const uint32_t result = temp(ir::kBool);
     const ir::BlockId more = b_.addBlock("right");

@@ -11,6 +11,7 @@ using namespace syntax;
 using sema::BoundArg;
 using sema::BoundCall;
 using sema::DataSymbol;
+using sema::LanguageError;
 using sema::RoutineSymbol;
 using sema::Storage;
 using sema::TypeKind;
@@ -287,15 +288,15 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
     if (erases_ && !unit_) entry.gone = goneFlag(module, task);
     module_.modules.push_back(std::move(entry));
     if (unit_ || program_.uses(sema::Trait::SearchesData)) addRoutineData(task, module);
-    if (!callsByName) return;
+    const auto& fromOutside = options_.calledFromOutside;
     for (const RoutineSymbol* routine : module.routines)
-        addNamedRoutine(*routine, task);
+        if (callsByName || (fromOutside && fromOutside(*routine))) addNamedRoutine(*routine, task);
 }
 
 /// Needed when the program is complete: what it asks for by name.
 void ProgramLowering::addTables() {
-    const bool callsByName =
-        natives_.contains("rt_lateCall") || erases_ || program_.uses(sema::Trait::CallsLater);
+    const bool callsByName = options_.callsByName || natives_.contains("rt_lateCall") || erases_ ||
+                             program_.uses(sema::Trait::CallsLater);
     for (uint32_t task = 0; task < program_.tasks.size(); ++task)
         for (const sema::Module* module : program_.tasks[task]->modules)
             addTablesOf(task, *module, callsByName);
@@ -398,7 +399,7 @@ void RoutineLowering::collectData(const Node& node, const Expr* except, const Da
 }
 
 /// The instruction raises `error`, which names what is missing, unless the condition holds.
-void RoutineLowering::requireData(ValueId condition, const char* error, std::string_view missing) {
+void RoutineLowering::requireData(ValueId condition, LanguageError error, std::string_view missing) {
     const ir::BlockId absent = b_.addBlock("absent");
     const ir::BlockId there = b_.addBlock("present");
     b_.condBr(condition, there, absent);
@@ -429,7 +430,7 @@ void RoutineLowering::checkForeignData(const Node& part) {
             program_.isForeign(*data)
                 ? b_.binary(ir::Op::INe, b_.globalAddr(program_.globalFor(*data, task_)), b_.nullPtr())
                 : isInMemory(*data);
-        requireData(present, "ERR_REFUNKDAT", data->name);
+        requireData(present, LanguageError::UnknownData, data->name);
     }
 }
 

@@ -10,6 +10,7 @@ namespace rapid::lower {
 using namespace syntax;
 using sema::BoundArg;
 using sema::DataSymbol;
+using sema::LanguageError;
 
 namespace {
 
@@ -84,12 +85,12 @@ void ProgramLowering::findOpenInitialValues(const sema::Module& module) {
                                       [](const DataSymbol* data) { return isVariableWithoutValue(*data); });
 }
 
-std::string_view RoutineLowering::missingInName(const NameExpr& name, const char*& error) const {
+std::string_view RoutineLowering::missingInName(const NameExpr& name, LanguageError& error) const {
     const sema::ExprInfo& facts = info(name);
     const bool isData = facts.symbol && facts.symbol->kind == sema::SymbolKind::Data;
     const auto* data = isData ? static_cast<const DataSymbol*>(facts.symbol) : nullptr;
     if (!isUnknown(facts.type) && !(data && (lacksValue(*data) || lacksSize(*data)))) return {};
-    error = data && hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+    error = data && hasPlaceholderIn(*data) ? LanguageError::Placeholder : LanguageError::UnknownData;
     const bool hasSize =
         data && data->decl && data->decl->kind == NodeKind::Data && !as<DataDecl>(*data->decl).dims.empty();
     const bool lacksType = data && data->decl && isUnknown(data->type) && !hasSize;
@@ -97,19 +98,20 @@ std::string_view RoutineLowering::missingInName(const NameExpr& name, const char
     return data && lacksValue(*data) ? openName(*data) : module_->tree->text(name.name);
 }
 
-std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name, const char*& error) const {
+std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex name,
+                                                LanguageError& error) const {
     const auto found = facts().calls.find(&node);
     const bool isFunction = node.kind == NodeKind::Call;
     if (found == facts().calls.end() || !found->second.routine) {
-        error = isFunction ? "ERR_REFUNKFUN" : "ERR_REFUNKPRC";
+        error = isFunction ? LanguageError::UnknownFunction : LanguageError::UnknownProcedure;
         return module_->tree->text(name);
     }
     const sema::RoutineSymbol& routine = *found->second.routine;
-    error = "ERR_EXECPHR";
+    error = LanguageError::Placeholder;
     if (routine.incomplete) return module_->tree->text(name); // <PAR> replaces parameters
     for (const BoundArg& arg : found->second.args) {
         if (arg.kind == BoundArg::Kind::Absent || !isUnknown(arg.param->type)) continue;
-        error = hasPlaceholderIn(*arg.param) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+        error = hasPlaceholderIn(*arg.param) ? LanguageError::Placeholder : LanguageError::UnknownData;
         return typeNameOf(*arg.param);
     }
     return isFunction ? missingInResult(routine, error) : std::string_view();
@@ -117,11 +119,11 @@ std::string_view RoutineLowering::missingInCall(const Node& node, TokenIndex nam
 
 /// The data type of a function, when nothing declares it.
 std::string_view RoutineLowering::missingInResult(const sema::RoutineSymbol& routine,
-                                                  const char*& error) const {
+                                                  LanguageError& error) const {
     if (!isUnknown(routine.returnType)) return {};
     const auto& tree = *routine.module->tree;
     const TokenIndex type = routine.routineDecl->returnType;
-    error = isPlaceholder(tree.tokens[type].kind) ? "ERR_EXECPHR" : "ERR_REFUNKDAT";
+    error = isPlaceholder(tree.tokens[type].kind) ? LanguageError::Placeholder : LanguageError::UnknownData;
     return tree.text(type);
 }
 
@@ -137,11 +139,11 @@ std::string_view RoutineLowering::missingComponent(const Node& node) const {
 
 /// Something in the instruction or expression, not in an instruction nested in it, that nothing declares; its name, and
 /// the error it raises.
-std::string_view RoutineLowering::missingReference(const Node& node, const char*& error) const {
+std::string_view RoutineLowering::missingReference(const Node& node, LanguageError& error) const {
     if (!isStmt(node.kind) && containsPlaceholder(node)) return {}; // an error of its own, when it is reached
     if (node.kind == NodeKind::Name) return missingInName(as<NameExpr>(node), error);
     std::string_view missing = missingComponent(node);
-    if (!missing.empty()) error = "ERR_REFUNKDAT";
+    if (!missing.empty()) error = LanguageError::UnknownData;
     forEachChild(node, [&](const Node& child) {
         if (missing.empty() && !isStmt(child.kind)) missing = missingReference(child, error);
     });
@@ -149,7 +151,7 @@ std::string_view RoutineLowering::missingReference(const Node& node, const char*
     if (node.kind == NodeKind::Call) return missingInCall(node, as<CallExpr>(node).name, error);
     if (node.kind == NodeKind::CallStmt && !as<CallStmt>(node).lateName)
         return missingInCall(node, as<CallStmt>(node).name, error);
-    error = "ERR_REFUNKDAT";
+    error = LanguageError::UnknownData;
     if (node.kind == NodeKind::Component) {
         const auto& component = as<ComponentExpr>(node);
         return isUnknown(info(component).type) ? module_->tree->text(component.name) : std::string_view();
@@ -179,7 +181,8 @@ void RoutineLowering::checkAssigned(const Node& part) {
     for (const DataSymbol* data : used) {
         const ValueId flag = b_.load(ir::kI32, b_.globalAddr(program_.valueFlag(*data, task_)));
         requireData(b_.binary(ir::Op::INe, flag, b_.constI32(0)),
-                    hasPlaceholderIn(*data) ? "ERR_EXECPHR" : "ERR_REFUNKDAT", openName(*data));
+                    hasPlaceholderIn(*data) ? LanguageError::Placeholder : LanguageError::UnknownData,
+                    openName(*data));
     }
 }
 
@@ -194,7 +197,7 @@ void RoutineLowering::noteAssigned(const Expr& target) {
 
 /// An instruction whose references stay open until it is executed (manual 1.6). True when it has been dealt with.
 bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part, ir::StmtKind kind) {
-    const char* error = nullptr;
+    LanguageError error = LanguageError::None;
     std::string_view missing;
     switch (part.kind) {
     case NodeKind::If:
@@ -205,7 +208,7 @@ bool RoutineLowering::lowerUnresolved(const Node& statement, const Node& part, i
     case NodeKind::PlaceholderStmt: return false; // their parts, one by one, when they are reached
     case NodeKind::Connect:
         if (facts().references.find(&part) == facts().references.end()) {
-            error = "ERR_REFUNKTRP";
+            error = LanguageError::UnknownTrap;
             missing = module_->tree->text(as<ConnectStmt>(part).trap);
             break;
         }
@@ -232,22 +235,22 @@ bool RoutineLowering::lowerOpenHead(const Expr& expr) {
 
 /// A procedure that nothing declares is looked for when it is called: a module that came meanwhile may have it. An argument
 /// of unknown type cannot be passed to it.
-std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, const char*& error) const {
+std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, LanguageError& error) const {
     const auto found = facts().calls.find(&stmt);
     const bool bound = found != facts().calls.end();
     if (stmt.lateName || (bound && found->second.routine)) return missingReference(stmt, error);
-    error = "ERR_REFUNKPRC";
+    error = LanguageError::UnknownProcedure;
     const std::string_view name = module_->tree->text(stmt.name);
     if (!bound) return name;
-    const char* ignored = nullptr;
+    LanguageError ignored = LanguageError::None;
     for (const BoundArg& arg : found->second.args)
         if (arg.value && (isUnknown(info(*arg.value).type) || !missingReference(*arg.value, ignored).empty()))
             return name;
     return {};
 }
 
-void RoutineLowering::raiseUnresolved(const char* error, std::string_view name) {
-    if (std::string_view(error) == "ERR_EXECPHR")
+void RoutineLowering::raiseUnresolved(LanguageError error, std::string_view name) {
+    if (error == LanguageError::Placeholder)
         return b_.check(b_.constBool(false), program_.errorNumber(error));
     const uint32_t native = program_.support(Support::rt_unresolved);
     b_.callNative(native,

@@ -8,6 +8,7 @@
 namespace rapid::lower {
 
 using namespace syntax;
+using sema::LanguageError;
 
 bool RoutineLowering::containsPlaceholder(const Node& node) const {
     if (!routineHasPlaceholders_) return false;
@@ -65,7 +66,7 @@ void RoutineLowering::reachPlaceholder(const Node& node) {
         else
             evaluate(expr);
     });
-    if (!reached) b_.raise(b_.constI32(program_.errorNumber("ERR_EXECPHR")));
+    if (!reached) b_.raise(b_.constI32(program_.errorNumber(LanguageError::Placeholder)));
 }
 
 /// For its effects.

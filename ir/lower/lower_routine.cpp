@@ -10,6 +10,7 @@
 namespace rapid::lower {
 
 using sema::DataSymbol;
+using sema::LanguageError;
 using sema::RoutineSymbol;
 
 ir::Routine declareRoutine(ProgramLowering& program, const RoutineSymbol& symbol, uint32_t task) {
@@ -228,7 +229,7 @@ ir::Routine RoutineLowering::run() {
         inInstructions_ = false; // the end is no instruction that RETRY or TRYNEXT could name
         if (symbol_.routineKind == syntax::RoutineKind::Func) {
             startStatement(*symbol_.routineDecl, ir::StmtKind::Return);
-            b_.raise(b_.constI32(program_.errorNumber("ERR_FNCNORET")));
+            b_.raise(b_.constI32(program_.errorNumber(LanguageError::FunctionEnd)));
         } else {
             b_.ret();
         }
@@ -320,7 +321,7 @@ constexpr int32_t kNoError = -1;
 /// One number in the list of an ERROR clause: goes to `body` when it is the error. True when it is known only here (a
 /// variable of the routine), so that the handler must be asked for every error.
 bool RoutineLowering::lowerListedNumber(const Expr& number, ir::BlockId body) {
-    if (const char* ignored = nullptr; !missingReference(number, ignored).empty()) {
+    if (LanguageError ignored = LanguageError::None; !missingReference(number, ignored).empty()) {
         routine_.errorFilter.push_back(kNoError); // an error that nothing here can raise
         return false;
     }

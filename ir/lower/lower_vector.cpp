@@ -6,6 +6,7 @@ namespace rapid::lower {
 
 using namespace syntax;
 using ir::Op;
+using sema::LanguageError;
 using sema::TypeKind;
 
 bool RoutineLowering::isVectorOp(const Expr& outer) const {
@@ -45,7 +46,8 @@ std::vector<ir::ValueId> RoutineLowering::lowerComponents(const Expr& outer) {
         const ValueId scalar = leftScalar ? first : lowerValueAs(*binary.right, program_.program().num);
         const bool division = binary.op == BinaryOp::Div;
         if (division)
-            b_.check(b_.binary(Op::FNe, scalar, b_.constF32(0)), program_.errorNumber("ERR_DIVZERO"));
+            b_.check(b_.binary(Op::FNe, scalar, b_.constF32(0)),
+                     program_.errorNumber(LanguageError::Divisor));
         for (ValueId& v : out)
             v = b_.binary(division ? Op::FDiv : Op::FMul, v, scalar);
         return out;

@@ -10,6 +10,7 @@ namespace rapid::lower {
 
 using sema::DataSymbol;
 using sema::DataType;
+using sema::LanguageError;
 using sema::RoutineSymbol;
 using sema::TypeKind;
 
@@ -77,10 +78,10 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
         for (const DataSymbol* data : lib->data)
             if (data->dataKind == syntax::DataKind::Const && data->type.type->name == "errnum") {
                 const auto number = static_cast<int32_t>(data->value().number);
-                errorNumbers_[data->name] = number;
+                if (data->languageError != LanguageError::None) errorNumbers_[data->languageError] = number;
                 if (data->meaning == sema::Meaning::AllErrors) allErrors_ = number;
             }
-    module_.overflowError = errorNumber("ERR_OVERFLOW");
+    module_.overflowError = errorNumber(LanguageError::Overflow);
 }
 
 ir::TypeId ProgramLowering::irType(const sema::Type* type) {
@@ -318,8 +319,8 @@ uint32_t ProgramLowering::stringGlobal(std::string_view text) {
     return constGlobal(stringType(), {scalar});
 }
 
-int32_t ProgramLowering::errorNumber(std::string_view name) const {
-    return errorNumbers_.at(std::string(name));
+int32_t ProgramLowering::errorNumber(LanguageError error) const {
+    return errorNumbers_.at(error);
 }
 
 bool ProgramLowering::implemented(const RoutineSymbol& symbol) const {
@@ -460,6 +461,18 @@ uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
     return static_cast<uint32_t>(module_.routines.size() - 1);
 }
 
+/// The entry of a task without main, of which only routines that are called from outside are executed.
+uint32_t ProgramLowering::makeEmptyEntry(uint32_t taskIndex) {
+    ir::Routine routine;
+    routine.name = task(taskIndex).name + "/$entry";
+    routine.displayName = "$entry";
+    ir::Builder b(module_, routine);
+    b.setBlock(b.addBlock("entry"));
+    b.ret();
+    module_.routines.push_back(std::move(routine));
+    return static_cast<uint32_t>(module_.routines.size() - 1);
+}
+
 uint32_t ProgramLowering::valueFlag(const DataSymbol& symbol, uint32_t task) {
     auto [found, isNew] = valueFlags_.try_emplace({task, &symbol}, 0);
     if (isNew)
@@ -483,6 +496,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
     entry.kind = current.type;
     entry.motionTask = index == 0;
     entry.entry = current.entryRoutine ? routineFor(*current.entryRoutine, index) : ir::kNone;
+    if (entry.entry == ir::kNone) entry.entry = makeEmptyEntry(index);
     entry.reset = makeReset(index);
     if (entry.entry != ir::kNone) module_.routines[entry.entry].exported = true;
     module_.tasks.push_back(std::move(entry));

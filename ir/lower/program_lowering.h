@@ -86,7 +86,7 @@ class ProgramLowering {
     uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
     uint32_t stringGlobal(std::string_view text);
     /// Value of a predefined error constant.
-    int32_t errorNumber(std::string_view name) const;
+    int32_t errorNumber(sema::LanguageError error) const;
     /// The number that means every error in the list of a handler.
     int32_t allErrors() const { return allErrors_; }
     uint32_t fileIndex(const std::string& path);
@@ -126,6 +126,7 @@ class ProgramLowering {
     void addTablesOf(uint32_t task, const sema::Module& module, bool callsByName);
     bool isImported(const sema::DataSymbol& symbol) const;
     uint32_t importGlobal(const sema::DataSymbol& symbol, uint32_t task);
+    uint32_t makeEmptyEntry(uint32_t taskIndex);
     uint32_t makeReset(uint32_t task);
     void drainPending();
     uint32_t lowerDetachedHandler(const Pending& routine, const RoutineLowering& body);
@@ -144,7 +145,7 @@ class ProgramLowering {
     std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
     std::unordered_map<std::string, uint32_t> natives_;
     std::map<std::string, uint32_t> constants_;
-    std::unordered_map<std::string, int32_t> errorNumbers_; ///< by name
+    std::unordered_map<sema::LanguageError, int32_t> errorNumbers_;
     int32_t allErrors_ = ir::kEveryError;
     std::unordered_map<std::string, uint32_t> files_;
     std::vector<Pending> pending_;

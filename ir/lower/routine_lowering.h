@@ -255,7 +255,7 @@ class RoutineLowering {
     using DataTest = std::function<bool(const sema::DataSymbol&)>;
     void collectData(const syntax::Node& node, const Expr* except, const DataTest& test,
                      std::vector<const sema::DataSymbol*>& out) const;
-    void requireData(ValueId condition, const char* error, std::string_view missing);
+    void requireData(ValueId condition, sema::LanguageError error, std::string_view missing);
     void checkForeignData(const syntax::Node& part);
     void checkData(const syntax::Node& part);
     void lowerLateCall(const syntax::CallStmt& stmt);
@@ -279,19 +279,19 @@ class RoutineLowering {
     bool reachesRoutineData(const syntax::Node& node) const; // lower_routine.cpp
 
     // lower_open.cpp
-    void raiseUnresolved(const char* error, std::string_view name);
+    void raiseUnresolved(sema::LanguageError error, std::string_view name);
     bool lowerUnresolved(const syntax::Node& statement, const syntax::Node& part, ir::StmtKind kind);
     bool lowerOpenHead(const Expr& expr);
     bool beginsWithoutValue(const sema::DataSymbol& data) const;
     void checkAssigned(const syntax::Node& part);
     void noteAssigned(const Expr& target);
-    std::string_view missingReference(const syntax::Node& node, const char*& error) const;
+    std::string_view missingReference(const syntax::Node& node, sema::LanguageError& error) const;
     std::string_view missingComponent(const syntax::Node& node) const;
-    std::string_view missingInName(const syntax::NameExpr& name, const char*& error) const;
+    std::string_view missingInName(const syntax::NameExpr& name, sema::LanguageError& error) const;
     std::string_view missingInCall(const syntax::Node& node, syntax::TokenIndex name,
-                                   const char*& error) const;
-    std::string_view missingInResult(const sema::RoutineSymbol& routine, const char*& error) const;
-    std::string_view missingInCallStmt(const syntax::CallStmt& stmt, const char*& error) const;
+                                   sema::LanguageError& error) const;
+    std::string_view missingInResult(const sema::RoutineSymbol& routine, sema::LanguageError& error) const;
+    std::string_view missingInCallStmt(const syntax::CallStmt& stmt, sema::LanguageError& error) const;
 
     // helpers
     const sema::FileFacts& facts() const { return *module_->facts; }

@@ -18,7 +18,7 @@ enum class Passing : uint8_t {
     Any      ///< address of data of any type; its description follows
 };
 
-/// What decides it.
+/// The properties of a parameter that decide its class.
 struct ParamShape {
     bool isSwitch = false;
     bool isAny = false;    ///< of type anytype
@@ -96,7 +96,7 @@ struct NativeSignature {
     std::span<const AbiType> params; ///< without task and result
 };
 
-/// The signature behind `Result(Params...)`.
+/// The signature of `Result(Params...)`.
 template <class F> struct SignatureOf;
 template <class Result, class... Params> struct SignatureOf<Result(Params...)> {
     static constexpr AbiType result = abiTypeOf<Result>();

@@ -1,5 +1,5 @@
 #pragma once
-// What compiled code and the runtime agree on. Plain C layout, no behaviour: codegen emits exactly these structures.
+// The interface of compiled code and the runtime. Plain C layout, no behaviour: codegen emits exactly these structures.
 
 #include <cstddef>
 #include <cstdint>
@@ -112,7 +112,7 @@ enum StmtFlag : uint8_t {
 struct LocalDesc {
     enum Kind : uint8_t {
         Value,    ///< its address is the object's
-        Reference ///< at its address stands the object's; null = parameter not given
+        Reference ///< at its address is that of the object; null = parameter not given
     };
     const char* name;     ///< "": belongs to an instruction (end and step of FOR), nobody sees it
     const TypeDesc* type; ///< of the object; when rank > 0: of its elements
@@ -123,7 +123,7 @@ struct LocalDesc {
     uint8_t pad;
 };
 
-/// How a detached error handler tells to go on.
+/// How execution continues after a detached error handler.
 enum HandlerDecision : int32_t { kNotDecided, kDecidedRetry, kDecidedTryNext, kDecidedReturn, kDecidedRaise };
 
 /// Numbers with a meaning of their own in RoutineDesc::errorFilter.
@@ -134,7 +134,7 @@ struct Frame;
 struct TaskCore;
 /// The error handler of a routine as a function of its own, for RaiseToUser \Continue: it runs on top of the routines in
 /// progress, `caller` is the innermost of them. `data`: SteppingFrame::addresses from RoutineDesc::localCount on. 0: it has
-/// said how to go on (rt_endDetached); > 0: it raises that error where the routine was called.
+/// said how to continue (rt_endDetached); > 0: it raises that error where the routine was called.
 using DetachedHandler = Status (*)(TaskCore* task, Frame* caller, void* const* data);
 
 /// A variable of the program that holds a number listed by an error handler.
@@ -171,7 +171,7 @@ struct RoutineDesc {
     DetachedHandler detachedHandler; ///< null: no handler, or no RaiseToUser \Continue in the program
 };
 
-/// Stands in the chain of frame records where the system calls a routine.
+/// Marks in the chain of frame records a call of a routine by the system.
 constexpr RoutineDesc boundary(const char* name) {
     RoutineDesc desc{};
     desc.name = name;
@@ -248,7 +248,7 @@ struct ModuleDesc {
     const char* name;
     const char* file;
     int32_t task;
-    int32_t* gone; ///< set to 1 when the module leaves memory; null: nobody asks
+    int32_t* gone; ///< set to 1 when the module leaves memory; null: not needed
 };
 struct ExternalDesc { ///< a configured object named by the program (signal ...)
     const char* name;
@@ -341,12 +341,12 @@ rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
 /// RETRY in the handler of `frame`: counts; 0, or an unwinding status when the task stopped because No Of Retry is
 /// exceeded. Started again, it counts anew.
 rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
-/// Stepping profile, ahead of a statement, when the budget is used up or TaskCore::askSteps is set: the task may stop
-/// here or be told to go on elsewhere. Returns the number of the statement to go on with (>= 0), or a negative status (unwind).
+/// Stepping profile, before a statement, when the budget is used up or TaskCore::askSteps is set: the task may stop
+/// here or be sent elsewhere. Returns the number of the statement to execute next (>= 0), or a negative status (unwind).
 int32_t rt_step(rt::TaskCore* task, rt::Frame* frame);
 /// The stack of the task is used up. Returns kUnwind.
 rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);
 
-/// What a compiled program says about itself; defined by the program.
+/// The self-description of a compiled program; defined by the program.
 extern const rt::ProgramDesc rapidc_program;
 }

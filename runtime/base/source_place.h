@@ -6,7 +6,7 @@
 
 namespace rt {
 
-/// Where a task is, was, or was called from.
+/// The place where a task is, was, or was called from.
 struct SourcePlace {
     std::string module, routine, file;
     uint32_t line = 0, column = 0; ///< from 1; 0 = not known

@@ -26,19 +26,6 @@ std::size_t depthOf(const Frame* frame) {
     return depth;
 }
 
-std::string_view fileName(std::string_view path) {
-    return path.substr(path.find_last_of('/') + 1);
-}
-
-/// `where`: module, file name or path, without regard to case.
-bool isPlace(const RoutineDesc& routine, std::string_view where) {
-    const std::string_view file = routine.file != nullptr ? routine.file : "";
-    if (sameName(routine.module, where) || sameName(file, where) || sameName(fileName(file), where))
-        return true;
-    const std::string_view name = fileName(file);
-    return sameName(name.substr(0, name.find_last_of('.')), where);
-}
-
 } // namespace
 
 bool Debugger::available() const {
@@ -68,80 +55,33 @@ void Debugger::stopAtEntry() {
 }
 
 bool Debugger::poll() {
+    constexpr int kPatience = 3; // looks; a task that executes comes to a statement in each slice
+    if (pausing_ != nullptr && stoppedTask_ == nullptr && ++pausePolls_ > kPatience) stopAll(*pausing_);
     const auto isBusy = [](const auto& task) { return task->hasWorkWhileStopped(); };
     while (client_ != nullptr && stoppedTask_ != nullptr && !quit_) {
         // UNDO handlers and event routines run first.
         if (std::any_of(host_.tasks().begin(), host_.tasks().end(), isBusy)) return false;
         Task& task = *stoppedTask_;
-        stoppedTask_ = nullptr;
+        stoppedTask_ = pausing_ = nullptr;
+        if (continuesBackward(task)) continue;
+        held_ = true;
         client_->stopped(*this, task, stopReason_);
     }
     return quit_;
+}
+
+bool Debugger::holds() const {
+    const auto isBusy = [](const auto& task) {
+        return task->hasWorkWhileStopped() || task->events().isVisited();
+    };
+    return held_ && !quit_ && stoppedTask_ == nullptr &&
+           std::none_of(host_.tasks().begin(), host_.tasks().end(), isBusy);
 }
 
 void Debugger::noteStop(Task& task, StopReason reason) {
     if (stoppedTask_ != nullptr) return;
     stoppedTask_ = &task;
     stopReason_ = reason;
-}
-
-// ---- Breakpoints ---------------------------------------------------------------------------------------------------
-
-Breakpoint Debugger::addBreakpoint(std::string_view where, uint32_t line) {
-    watch();
-    Breakpoint& breakpoint =
-        breakpoints_.emplace_back(Breakpoint{++lastBreakpoint_, std::string(where), line, 0, false});
-    findLine(breakpoint);
-    stops_.clear();
-    return breakpoint;
-}
-
-/// The nearest statement at or below the line that can be stopped at.
-void Debugger::findLine(Breakpoint& breakpoint) const {
-    breakpoint.actualLine = 0;
-    breakpoint.waits = true;
-    for (const RoutineEntry* entry : host_.tables().routines()) {
-        const RoutineDesc& routine = *entry->desc;
-        if (!isPlace(routine, breakpoint.file)) continue;
-        breakpoint.waits = false;
-        for (uint32_t s = 0; s < routine.statementCount; ++s) {
-            const StmtDesc& statement = routine.statements[s];
-            if (statement.canStart == 0 || statement.line < breakpoint.line) continue;
-            if (breakpoint.actualLine == 0 || statement.line < breakpoint.actualLine)
-                breakpoint.actualLine = statement.line;
-        }
-    }
-}
-
-void Debugger::memoryChanged() {
-    for (Breakpoint& breakpoint : breakpoints_)
-        findLine(breakpoint);
-    stops_.clear();
-}
-
-bool Debugger::removeBreakpoint(int id) {
-    stops_.clear();
-    return std::erase_if(breakpoints_, [id](const Breakpoint& b) { return b.id == id; }) > 0;
-}
-
-bool Debugger::isBreakpoint(const Frame& at) {
-    if (breakpoints_.empty()) return false;
-    auto [found, isNew] = stops_.try_emplace(at.routine);
-    std::vector<bool>& marks = found->second;
-    if (isNew) {
-        marks.assign(at.routine->statementCount, false);
-        for (const Breakpoint& breakpoint : breakpoints_) {
-            if (breakpoint.actualLine == 0 || !isPlace(*at.routine, breakpoint.file)) continue;
-            // Several statements in a line: the first one stops.
-            for (uint32_t s = 0; s < at.routine->statementCount; ++s) {
-                const StmtDesc& statement = at.routine->statements[s];
-                if (statement.canStart == 0 || statement.line != breakpoint.actualLine) continue;
-                marks[s] = true;
-                break;
-            }
-        }
-    }
-    return marks[static_cast<std::size_t>(at.statement)];
 }
 
 // ---- Ahead of every statement --------------------------------------------------------------------------------------
@@ -161,34 +101,55 @@ int32_t Debugger::beforeStatement(Task& task, Frame* at) {
         if (const std::string problem = startBackward(task, state, at); !problem.empty())
             host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
         if (state.backwardFrame != nullptr) return goOn(state, at, here);
-    } else if (!shouldStop(state, at, reason)) {
-        return here;
+    } else {
+        const bool inUndo = task.isUnwinding();
+        const bool stops = shouldStop(task, state, at, reason);
+        if (!inUndo && task.isUnwinding())
+            return kUnwindSilent; // the run ended while a condition was evaluated
+        if (!stops) return here;
     }
     return stopHere(task, state, at, here, reason);
 }
 
-bool Debugger::shouldStop(State& state, Frame* at, StopReason& reason) {
-    if (state.mode != Mode::Backward && isBreakpoint(*at)) {
-        reason = StopReason::Breakpoint;
+bool Debugger::shouldStop(Task& task, State& state, Frame* at, StopReason& reason) {
+    const bool hidden = at->routine->noStepIn != 0;
+    if (!hidden && breakpoints_.dataStops(task, at)) {
+        reason = StopReason::Data;
         return true;
     }
-    if (state.mode == Mode::Run || at->routine->noStepIn != 0) return false;
+    if (state.mode != Mode::Backward && breakpoints_.stops(task, at)) {
+        reason = breakpoints_.hitRoutine() ? StopReason::Routine : StopReason::Breakpoint;
+        return true;
+    }
+    if (state.mode == Mode::Run || hidden) return false;
     if (state.passFirst) {
         state.passFirst = false;
         return false;
     }
+    if (!stepEnds(state, at)) return false;
+    reason = state.entry                  ? StopReason::Entry
+             : state.mode == Mode::Cursor ? StopReason::Cursor
+             : state.mode == Mode::Pause  ? StopReason::Order
+                                          : StopReason::Step;
+    return true;
+}
+
+bool Debugger::stepEnds(const State& state, const Frame* at) {
     const StmtDesc& statement = at->routine->statements[at->statement];
-    reason = state.entry ? StopReason::Entry : StopReason::Step;
     switch (state.mode) {
     case Mode::Run: return false;
     case Mode::Backward: return (statement.flags & kStmtInBackward) != 0;
-    case Mode::In: return true;
+    case Mode::In:
+    case Mode::Pause: return true;
     case Mode::Over: return depthOf(at) <= state.depth;
     case Mode::Out: return depthOf(at) < state.depth;
+    case Mode::Line: {
+        const std::size_t depth = depthOf(at);
+        return depth < state.depth || (depth == state.depth && statement.line != state.fromLine);
+    }
+    case Mode::LineInto: return depthOf(at) != state.depth || statement.line != state.fromLine;
     case Mode::Move: return (statement.flags & kStmtMovement) != 0;
-    case Mode::Cursor:
-        reason = StopReason::Cursor;
-        return isPlace(*at->routine, state.cursorPlace) && statement.line == state.cursorLine;
+    case Mode::Cursor: return statement.line == state.cursorLine && isPlace(*at->routine, state.cursorPlace);
     }
     return false;
 }
@@ -204,12 +165,7 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
     state.entry = false;
     state.mode = Mode::Run;
     state.standing = at;
-    noteStop(task, reason);
-    task.setStepwise(true);
-    task.stop(StopCause::Step);
-    host_.stopNormalTasks(StopCause::Order);
-    host_.forEachArm([](SteppedArm& arm) { arm.programStop(); });
-    const Status status = task.suspendStopped();
+    const Status status = standStill(task, reason);
     state.standing = nullptr;
     if (status < 0) {
         state.backwardFrame = nullptr;
@@ -217,6 +173,30 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
         return status;
     }
     return goOn(state, at, here);
+}
+
+Status Debugger::standStill(Task& task, StopReason reason) {
+    noteStop(task, reason);
+    task.setStepwise(true);
+    task.stop(StopCause::Step);
+    host_.stopNormalTasks(StopCause::Order);
+    host_.forEachArm([](SteppedArm& arm) { arm.programStop(); });
+    return task.suspendStopped();
+}
+
+Status Debugger::handledErrorRaised(Task& task, int number) {
+    if (client_ == nullptr || quit_ || (task.frame != nullptr && task.frame->routine->noStepIn != 0) ||
+        !client_->stopsAtHandledError(task, number))
+        return kOk;
+    stateOf(task).mode = Mode::Run;
+    return standStill(task, StopReason::Raised);
+}
+
+void Debugger::noteError(Task& task) {
+    if (client_ == nullptr || client_->stopsAtError(task))
+        noteStop(task, StopReason::Error);
+    else
+        errorEndsRun_ = errorEndsRun_ || task.kind() == TaskKind::Normal;
 }
 
 Status Debugger::stopInside(Task& task) {
@@ -238,15 +218,32 @@ bool Debugger::isBackward(const Task& task) const {
 
 // ---- Orders --------------------------------------------------------------------------------------------------------
 
+/// A background task stands still because everything does; it was not stopped itself.
+bool Debugger::isHeldHere(const Task& task) const {
+    return held_ && task.kind() != TaskKind::Normal && !task.isStopped();
+}
+
 std::string Debugger::refusal(const Task& task) const {
     if (task.state() == TaskState::Finished) return fmt::format("task {} has ended", task.name());
-    if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
+    if (!task.isStopped() && !isHeldHere(task))
+        return fmt::format("task {} is executing: stop it first", task.name());
     if (!available()) return "the program was not compiled for stepping";
     if (!task.canResume())
         return fmt::format(
             "task {} was stopped by an error and cannot continue from there: move its program pointer",
             task.name());
     return "";
+}
+
+/// The other NORMAL tasks execute until the one stands still again, and those in the background that a breakpoint stopped.
+void Debugger::resumeOthers(const Task& task) {
+    for (const auto& other : host_.tasks()) {
+        const bool stopped = other->kind() == TaskKind::Normal || other->stopCause() == StopCause::Step;
+        if (other.get() == &task || !stopped || !other->isStopped()) continue;
+        stateOf(*other).mode = Mode::Run;
+        other->setStepwise(false);
+        if (other->canResume()) other->resume();
+    }
 }
 
 /// One task is stepped, the others execute until it stands still again.
@@ -265,19 +262,51 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     state.passFirst = task.stopCause() == StopCause::AtMain && mode != Mode::Cursor;
     state.depth = depthOf(state.standing != nullptr ? state.standing : task.frame);
     task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
-    for (const auto& other : host_.tasks()) {
-        if (alone || other.get() == &task || other->kind() != TaskKind::Normal || !other->isStopped())
-            continue;
-        other->setStepwise(false);
-        if (other->canResume()) other->resume();
-    }
+    if (!alone) resumeOthers(task);
+    held_ = false;
     host_.forEachArm([](SteppedArm& arm) { arm.programStart(); });
+    if (!task.isStopped()) return "";
     // What the program pointer was moved to by hand decides between START and RESTART; a step is neither.
-    if (mode == Mode::Run || mode == Mode::Cursor)
+    if (task.kind() != TaskKind::Normal) {
+    } else if (mode == Mode::Run || mode == Mode::Cursor) {
         host_.oweStart(task);
-    else
+    } else {
         task.events().owe(SystemEvent::Step);
+    }
     task.resume();
+    return "";
+}
+
+std::string Debugger::stepLine(Task& task, bool intoRoutines, bool alone) {
+    State& state = stateOf(task);
+    const Frame* at = state.standing != nullptr ? state.standing : task.frame;
+    const StmtDesc* statement = at != nullptr ? statementOf(*at) : nullptr;
+    state.fromLine = statement != nullptr ? statement->line : 0;
+    return begin(task, intoRoutines ? Mode::LineInto : Mode::Line, alone);
+}
+
+void Debugger::stopAll(Task& task) {
+    for (const auto& other : host_.tasks())
+        if (stateOf(*other).mode == Mode::Pause) stateOf(*other).mode = Mode::Run;
+    pausing_ = nullptr;
+    noteStop(task, StopReason::Order);
+    host_.stopNormalTasks(StopCause::Order);
+    host_.forEachArm([](SteppedArm& arm) { arm.programStop(); });
+}
+
+std::string Debugger::pause(Task& task) {
+    if (held_) return "the program is not executing";
+    if (task.state() == TaskState::Finished) return fmt::format("task {} has ended", task.name());
+    watch();
+    // Ahead of a statement, data and the program pointer can be seen and changed best.
+    const bool soon = task.state() == TaskState::Ready && task.isExecuting() && available();
+    if (!soon || pausing_ != nullptr) {
+        stopAll(task);
+        return "";
+    }
+    stateOf(task).mode = Mode::Pause;
+    pausing_ = &task;
+    pausePolls_ = 0;
     return "";
 }
 
@@ -290,29 +319,18 @@ void Debugger::continuous(Task& task) {
 
 std::string Debugger::run() {
     for (const auto& task : host_.tasks()) {
-        if (task->kind() != TaskKind::Normal || !task->isStopped() || task->state() == TaskState::Finished)
-            continue;
+        const bool concerned = task->kind() == TaskKind::Normal || task->stopCause() == StopCause::Step ||
+                               task->stopCause() == StopCause::Error;
+        if (!concerned || !task->isStopped() || task->state() == TaskState::Finished) continue;
         continuous(*task);
         if (std::string problem = begin(*task, Mode::Run, true); !problem.empty()) return problem;
     }
+    held_ = false;
     return "";
 }
 
 std::string Debugger::stepTogether(Task& task, bool forward) {
     return forward ? begin(task, Mode::In, true) : stepBackward(task);
-}
-
-std::string Debugger::stepIn(Task& task) {
-    return begin(task, Mode::In);
-}
-std::string Debugger::stepOver(Task& task) {
-    return begin(task, Mode::Over);
-}
-std::string Debugger::stepOut(Task& task) {
-    return begin(task, Mode::Out);
-}
-std::string Debugger::stepMove(Task& task) {
-    return begin(task, Mode::Move);
 }
 
 std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t line) {
@@ -379,11 +397,24 @@ std::string Debugger::pointerToMain() {
     return "";
 }
 
+std::string Debugger::enterRoutine(Task& task) {
+    if (std::string problem = refusal(task); !problem.empty()) return problem;
+    watch();
+    State& state = stateOf(task);
+    state.mode = Mode::In;
+    state.passFirst = false;
+    held_ = false;
+    task.setStepwise(true);
+    task.resume();
+    return "";
+}
+
 void Debugger::forget(const Task& task) {
     State& state = stateOf(task);
     state.backwardFrame = nullptr;
     state.backwardLast = state.backwardTop = state.pendingBackward = false;
     state.mode = Mode::Run;
+    state.backwardOn = false;
 }
 
 } // namespace rt

@@ -3,6 +3,7 @@
 // of a program made for the stepping profile. One per controller; what shows it to people (a line-mode debugger, an
 // editor, a stimulus file) is a DebugClient or calls the orders directly.
 
+#include "runtime/debug/breakpoints.h"
 #include "runtime/debug/debug_data.h"
 #include "runtime/debug/debug_host.h"
 #include "runtime/sched/step_hook.h"
@@ -27,24 +28,25 @@ enum class StopReason : uint8_t {
     Stop,        ///< Stop or DebugBreak was executed
     Error,       ///< system handler
     Pointer,     ///< the program pointer was moved
+    Routine,     ///< a breakpoint at the beginning of a routine
+    Data,        ///< watched data have changed
+    Raised,      ///< an error that a handler will take
 };
 
-/// Called by the scheduler's thread, outside all tasks, when the program stands still. Gives orders to the debugger and
-/// returns when one of them lets the program go on, or after `quit`.
+/// Whoever debugs the program.
 class DebugClient {
   public:
+    /// Called by the scheduler's thread, outside all tasks, when the program has stopped. From now on nothing executes and
+    /// virtual time does not pass until an order to the debugger lets the program continue, or `quit`. The order may be given
+    /// here or later, by a command from the inbox of the scheduler.
     virtual void stopped(Debugger& debugger, Task& task, StopReason reason) = 0;
+    /// Whether the program stops at an error that nothing takes; else the run ends as it does without a client.
+    virtual bool stopsAtError(const Task&) { return true; }
+    /// Whether it stops when an error is raised that a handler will take.
+    virtual bool stopsAtHandledError(const Task&, int) { return false; }
 
   protected:
     ~DebugClient() = default;
-};
-
-struct Breakpoint {
-    int id = 0;
-    std::string file;        ///< as given: a path, a file name or the name of a module
-    uint32_t line = 0;       ///< as given, from 1
-    uint32_t actualLine = 0; ///< of the statement that stops; 0: there is none
-    bool waits = false;      ///< no module of that name is in memory; it may be loaded later
 };
 
 /// One routine in progress, innermost first.
@@ -56,7 +58,7 @@ struct DebugFrame {
 
 class Debugger final : public StepHook {
   public:
-    explicit Debugger(DebugHost& host) : host_(host) {}
+    explicit Debugger(DebugHost& host) : host_(host), breakpoints_(host) {}
 
     /// Null: nobody looks; then only orders of the stimulus step the program.
     void setClient(DebugClient* client);
@@ -67,23 +69,36 @@ class Debugger final : public StepHook {
     bool available() const;
     /// Called between tasks: lets the client speak when the program stands still. True: the run is to end.
     bool poll();
+    /// The program is held for the client: nothing executes, virtual time does not pass.
+    bool holds() const;
+    /// The client knows of the stop, and no order has followed. Code that it lets a task execute does not change that.
+    bool standsStill() const { return held_; }
+    /// The client may start the tasks that are stopped.
+    bool mayStart() const { return client_ != nullptr && !errorEndsRun_; }
     void quit() { quit_ = true; }
 
-    // ---- Breakpoints: `where` is a module, a file name or a path; the first statement at or below the line stops.
-    Breakpoint addBreakpoint(std::string_view where, uint32_t line);
-    bool removeBreakpoint(int id);
-    const std::vector<Breakpoint>& breakpoints() const { return breakpoints_; }
+    Breakpoints& breakpoints() { return breakpoints_; }
     /// A module has come into memory or left it.
-    void memoryChanged();
+    void memoryChanged() { breakpoints_.memoryChanged(); }
 
-    // ---- Orders; each returns "" or why it is refused. The other NORMAL tasks execute while one is stepped.
+    // ---- Orders; each returns "" or why it is refused. The other tasks execute while one is stepped, unless it is to be
+    // stepped alone.
+    /// Stops everything. If `task` executes, it is stopped before its next statement, as far as that comes soon. The stop is
+    /// that of `task`.
+    std::string pause(Task& task);
     std::string run();
-    std::string stepIn(Task& task);
-    std::string stepOver(Task& task);
-    std::string stepOut(Task& task);
+    /// One task only.
+    std::string runAlone(Task& task) { return begin(task, Mode::Run, true); }
+    std::string stepIn(Task& task, bool alone = false) { return begin(task, Mode::In, alone); }
+    std::string stepOver(Task& task, bool alone = false) { return begin(task, Mode::Over, alone); }
+    /// As stepOver, but until another line is reached.
+    std::string stepLine(Task& task, bool intoRoutines, bool alone = false);
+    std::string stepOut(Task& task, bool alone = false) { return begin(task, Mode::Out, alone); }
     /// Until the next movement instruction is to be executed.
-    std::string stepMove(Task& task);
+    std::string stepMove(Task& task, bool alone = false) { return begin(task, Mode::Move, alone); }
     std::string stepBackward(Task& task);
+    /// Steps backward until the beginning of the routine or a breakpoint.
+    std::string runBackward(Task& task);
     /// As controller actions do it: every NORMAL task makes its step.
     std::string stepTogether(Task& task, bool forward);
     std::string runToLine(Task& task, std::string_view where, uint32_t line);
@@ -94,6 +109,8 @@ class Debugger final : public StepHook {
     /// The call chain is left with its UNDO handlers; the next start executes the routine.
     std::string pointerToRoutine(Task& task, std::string_view name);
     std::string pointerToMain();
+    /// After pointerToRoutine: the routine is entered, and the task stops before its first statement.
+    std::string enterRoutine(Task& task);
 
     // ---- Looking at things
     std::vector<DebugFrame> frames(const Task& task) const;
@@ -118,13 +135,16 @@ class Debugger final : public StepHook {
     bool allowsCall(Task& task, const Frame* caller, const RoutineDesc& callee);
     /// Stands still inside an instruction (at the circle point of a MoveC).
     Status stopInside(Task& task);
+    /// The system handler has stopped a task because of an error.
+    void noteError(Task& task);
 
     // ---- StepHook
     int32_t beforeStatement(Task& task, Frame* at) override;
     bool isBackward(const Task& task) const override;
+    Status handledErrorRaised(Task& task, int number) override;
 
   private:
-    enum class Mode : uint8_t { Run, In, Over, Out, Move, Cursor, Backward };
+    enum class Mode : uint8_t { Run, In, Over, Out, Move, Cursor, Backward, Line, LineInto, Pause };
     struct State {
         Mode mode = Mode::Run;
         bool passFirst = false;  ///< the program pointer is at main: the first statement is the one stepped
@@ -132,6 +152,7 @@ class Debugger final : public StepHook {
         std::size_t depth = 0;   ///< frames when the order was given
         std::string cursorPlace; ///< run to cursor
         uint32_t cursorLine = 0;
+        uint32_t fromLine = 0;     ///< Line, LineInto
         Frame* standing = nullptr; ///< the task stands ahead of a statement of this frame
         bool insideCircle = false; ///< at a circle point
         bool jumped = false;       ///< another statement was chosen; its own question is passed over
@@ -142,12 +163,17 @@ class Debugger final : public StepHook {
         Frame* backwardFrame = nullptr; ///< its statement is being executed backwards
         int32_t backwardStatement = -1;
         bool backwardRefused = false; ///< it could not be done
+        bool backwardOn = false;      ///< step after step until the beginning of the routine or a breakpoint
     };
 
     State& stateOf(const Task& task) { return states_[&task]; }
-    bool shouldStop(State& state, Frame* at, StopReason& reason);
-    bool isBreakpoint(const Frame& at);
-    void findLine(Breakpoint& breakpoint) const;
+    bool shouldStop(Task& task, State& state, Frame* at, StopReason& reason);
+    static bool stepEnds(const State& state, const Frame* at);
+    /// Stops every task where it is; the stop is that of `task`.
+    void stopAll(Task& task);
+    Status standStill(Task& task, StopReason reason);
+    bool isHeldHere(const Task& task) const;
+    void resumeOthers(const Task& task);
     int32_t stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason);
     static int32_t goOn(State& state, const Frame* at, int32_t here);
     /// `alone`: the other tasks are left as they are.
@@ -160,6 +186,7 @@ class Debugger final : public StepHook {
     // debugger_backward.cpp
     /// Moves the program pointer, or begins to execute its statement backwards (then backwardFrame is set).
     std::string startBackward(Task& task, State& state, Frame* at);
+    bool continuesBackward(Task& task);
     void finishBackward(Task& task, State& state, Frame* at);
     /// The first step forward after one backward moves the pointer only. False: it is not needed.
     bool turnForward(Task& task, State& state);
@@ -168,10 +195,11 @@ class Debugger final : public StepHook {
     DebugClient* client_ = nullptr;
     bool quit_ = false;
     std::map<const Task*, State> states_;
-    std::vector<Breakpoint> breakpoints_;
-    int lastBreakpoint_ = 0;
-    std::map<const RoutineDesc*, std::vector<bool>>
-        stops_; ///< statements with a breakpoint; filled on demand
+    Breakpoints breakpoints_;
+    bool held_ = false;         ///< the client knows that the program has stopped
+    bool errorEndsRun_ = false; ///< an error has stopped the program, and the client does not stop at errors
+    Task* pausing_ = nullptr;   ///< ordered to pause
+    int pausePolls_ = 0;
     Task* stoppedTask_ = nullptr;
     StopReason stopReason_ = StopReason::Entry;
 };

@@ -63,6 +63,22 @@ std::string Debugger::stepBackward(Task& task) {
     return "";
 }
 
+std::string Debugger::runBackward(Task& task) {
+    std::string problem = stepBackward(task);
+    if (problem.empty()) stateOf(task).backwardOn = true;
+    return problem;
+}
+
+/// True: the task makes one more step, or is before the instruction above already.
+bool Debugger::continuesBackward(Task& task) {
+    State& state = stateOf(task);
+    if (!std::exchange(state.backwardOn, false)) return false;
+    if (stopReason_ != StopReason::Step || state.backwardTop || state.standing == nullptr ||
+        breakpoints_.isAt(*state.standing))
+        return false;
+    return runBackward(task).empty();
+}
+
 std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
     const StmtDesc& statement = row(*at, at->statement);
     if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr)

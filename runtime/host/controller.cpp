@@ -103,6 +103,7 @@ ExitStatus Controller::run() {
         if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
         task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
     }
+    if (debugger_.hasClient()) scheduler_.setHold([this] { return debugger_.holds(); });
     return finish(scheduler_.run([this] { return runOver(); }));
 }
 
@@ -114,7 +115,8 @@ bool Controller::runOver() {
     panel_.keepVisible();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
-        const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome();
+        const bool stoppedForGood =
+            task->isStopped() && !task->hasWorkWhileStopped() && !startToCome() && !debugger_.mayStart();
         if (!stoppedForGood) {
             programsEnded_ = kNever;
             return false;
@@ -246,7 +248,7 @@ void Controller::programReset(Task& task) {
 }
 
 void Controller::taskFailed(Task& task) {
-    debugger_.noteStop(task, StopReason::Error);
+    debugger_.noteError(task);
     if (task.kind() != TaskKind::Normal) {
         backgroundStopped(task);
         return;

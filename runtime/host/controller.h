@@ -147,7 +147,7 @@ class Controller final : public DebugHost {
     // ---- TaskHost ----------------------------------------------------------------------------------------------
     bool cyclesLeft(const Task& task) const override;
     /// The stimulus has a `start` ahead.
-    bool startToCome() const override { return startsToCome_ > 0 || debugger_.hasClient(); }
+    bool startToCome() const override { return startsToCome_ > 0; }
     void taskStopped(Task& task) override;
     void cycleLeft(Task& task) override;
     void retried(Task& task) override;

@@ -32,6 +32,7 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         {"CycleOn", State::CycleOn},
         {"TaskExecuting", State::TaskExecuting},
         {"MechUnitNotMoving", State::NotMoving},
+        {"MechUnitActive", State::UnitActive},
         {"Error", State::Error},
         {"ExecutionError", State::Error},
         {"AutoOn", State::On},
@@ -40,6 +41,7 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         {"MotorOff", State::MotorsOff},
         {"MotOffState", State::MotorsOff},
         {"RunchOk", State::On},
+        {"MotSupOn", State::On},
         {"LimitSpeed", State::SpeedLimited},
     };
     const auto signalOf = [&](const CfgInstance& instance) {
@@ -48,7 +50,10 @@ void SystemSignals::configure(const CfgFile& file, std::vector<CfgProblem>& prob
         if (id < 0) {
             problems.push_back(
                 {file.name, instance.line,
-                 fmt::format("system signal: signal '{}' is not defined; add it to EIO_SIGNAL", name), true});
+                 name.empty()
+                     ? "system signal without a signal: add -Signal and its name"
+                     : fmt::format("system signal: signal '{}' is not defined; add it to EIO_SIGNAL", name),
+                 true});
         }
         return id;
     };
@@ -107,6 +112,11 @@ double SystemSignals::stateValue(const Output& output) const {
     const auto executing = [](const std::unique_ptr<Task>& task) {
         return task->kind() == TaskKind::Normal && task->isExecuting();
     };
+    // A unit of the configuration moves with its group; a name that is not known there concerns all.
+    const MechanicalUnit* unit = controller_.units().find(output.unit);
+    const auto concerns = [unit](const auto& motion) {
+        return unit == nullptr || unit->isConveyor || unit->group == motion->group();
+    };
     const auto& tasks = controller_.tasks();
     switch (output.state) {
     case State::CycleOn: return std::any_of(tasks.begin(), tasks.end(), executing) ? 1 : 0;
@@ -116,9 +126,10 @@ double SystemSignals::stateValue(const Output& output) const {
     }
     case State::NotMoving:
         return std::any_of(controller_.motions().begin(), controller_.motions().end(),
-                           [](const auto& motion) { return motion->isMoving(); })
+                           [&](const auto& motion) { return motion->isMoving() && concerns(motion); })
                    ? 0
                    : 1;
+    case State::UnitActive: return isActive(output.unit) ? 1 : 0;
     case State::SpeedLimited:
         return std::all_of(controller_.motions().begin(), controller_.motions().end(),
                            [&](const auto& motion) {
@@ -134,6 +145,12 @@ double SystemSignals::stateValue(const Output& output) const {
     case State::On: break;
     }
     return 1;
+}
+
+/// Robots always are.
+bool SystemSignals::isActive(const std::string& unit) const {
+    const MechanicalUnit* found = controller_.units().find(unit);
+    return found != nullptr && (found->isRobot || found->isActive);
 }
 
 void SystemSignals::update() {

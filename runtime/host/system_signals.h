@@ -36,7 +36,8 @@ class SystemSignals {
         MotorsOn,
         MotorsOff,
         On,
-        SpeedLimited
+        SpeedLimited,
+        UnitActive
     };
     struct Input {
         SignalId signal = -1;
@@ -52,6 +53,7 @@ class SystemSignals {
     void carryOut(Order order);
     void limitSpeed(const std::string& unit, bool on);
     double stateValue(const Output& output) const;
+    bool isActive(const std::string& unit) const;
 
     Controller& controller_;
     std::vector<Input> inputs_;

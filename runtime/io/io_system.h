@@ -107,7 +107,7 @@ class IoSystem {
     std::size_t size() const { return signals_.size(); }
     const SignalConfig& config(SignalId id) const;
     static Handle handleOf(SignalId id) { return id + 1; }
-    /// -1 for a handle that is no signal.
+    /// -1 for a handle that is not a signal.
     SignalId idOf(Handle handle) const;
     /// The handle of a signal that the program names and no configuration defines: each use of it fails.
     Handle undefinedHandle(const std::string& name);
@@ -124,9 +124,9 @@ class IoSystem {
     /// A RAPID program sets an output now. Cancels a pending delayed change and a running pulse of it.
     /// Digital: every value but 0 acts as 1.
     IoResult set(Handle handle, double value);
-    /// SetDO \SDelay and the like: the value is set `delay` later; the program goes on.
+    /// SetDO \SDelay and the like: the value is set `delay` later; the program continues.
     IoResult setDelayed(Handle handle, double value, Time delay);
-    /// PulseDO: inverted (or high, with `high`) for `length`; the program goes on.
+    /// PulseDO: inverted (or high, with `high`) for `length`; the program continues.
     IoResult pulse(Handle handle, Time length, bool high);
     /// InvertDO.
     IoResult invert(Handle handle);

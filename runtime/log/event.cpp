@@ -102,7 +102,7 @@ std::string toJson(const Event& event) {
         for (const SourcePlace& call : event.calls)
             json["calls"].push_back(jsonOf(call));
     }
-    // Text of a program may hold bytes that are no UTF-8: they are replaced, never a reason to fail.
+    // Text of a program may hold bytes that are not UTF-8: they are replaced and never cause a failure.
     return rapid::config::textOf(json);
 }
 

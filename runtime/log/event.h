@@ -14,7 +14,7 @@ namespace rt {
 /// The figures that controllers use for the type of a message.
 enum class EventType : uint8_t { Information = 1, Warning = 2, Error = 3 };
 
-/// What an event is about: a task and where it stands; null: the controller.
+/// The subject of an event: a task and its place in the program; null: the controller.
 struct EventOrigin {
     std::string task; ///< empty: the controller
     SourcePlace place;
@@ -29,12 +29,12 @@ struct EventOrigin {
 };
 
 struct Event {
-    uint64_t sequence = 0; ///< from 1, given by the log; of the last one when it stands for several
+    uint64_t sequence = 0; ///< from 1, given by the log; of the last one when it represents several
     int number = 0;
     EventType type = EventType::Information;
     std::string title, text;
     Time time = 0;                      ///< virtual; of the last one
-    uint64_t count = 1;                 ///< occurrences that it stands for
+    uint64_t count = 1;                 ///< occurrences that it represents
     Time since = 0;                     ///< time of the first of them, when there are several
     std::string task;                   ///< empty: the controller
     SourcePlace place;                  ///< module, routine, line; empty when there is none

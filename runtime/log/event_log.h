@@ -37,14 +37,14 @@ class EventLog {
     bool openJson(const std::string& path, std::string& error) { return json_.open(path, error); }
     /// Ends that file, after finish(); false when some of it was lost, which has been reported.
     bool closeJson() { return json_.close(); }
-    /// Where people read events; null: nowhere. Default stderr.
+    /// The output that people read; null: none. Default stderr.
     void setHumanOutput(std::FILE* file) { human_ = file; }
     void setClock(std::function<Time()> now) { now_ = std::move(now); }
     /// Called with every event after it is kept, until removed; a listener may remove itself and write events.
     uint64_t addListener(std::function<void(const Event&)> listener);
     void removeListener(uint64_t listener) { listeners_.erase(listener); }
 
-    /// The standard library tells the name ("ERR_DIVZERO") and the meaning (one sentence, may be "") of every
+    /// The standard library gives the name ("ERR_DIVZERO") and the meaning (one sentence, may be "") of every
     /// ERRNO constant. The texts must outlive the log.
     void addErrorName(int number, const char* name, const char* text);
     /// "ERR_DIVZERO", or "" when the number has no name (RAISE with 1 to 90).
@@ -64,7 +64,7 @@ class EventLog {
 
     /// The newest 1000, oldest first. One that repeats the one before it is counted there.
     const std::deque<Event>& events() const { return events_; }
-    /// Events of an earlier run come before those of this one; numbers go on. They are not shown again.
+    /// Events of an earlier run come before those of this one; numbers continue. They are not shown again.
     void restore(const std::vector<Event>& events);
     /// The event with this sequence number, while it is kept.
     const Event* find(uint64_t sequence) const;

@@ -13,7 +13,7 @@ bool isOperational(const Event& event) {
     return event.number >= 10'000 && event.number < 30'000;
 }
 
-/// What stops a program is written also when the file is full.
+/// An event that stops a program is written also when the file is full.
 bool isLasting(const Event& event) {
     return isOperational(event) || (event.type == EventType::Error && event.number / 10'000 == 4);
 }

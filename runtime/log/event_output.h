@@ -1,5 +1,5 @@
 #pragma once
-// Where the event log is written: JSON lines and text for people. Repetitions are counted, and both have a last line, so that
+// The outputs of the event log: JSON lines and text for people. Repetitions are counted, and both have a last line, so that
 // a program that fails for ever fills neither a disk nor a terminal.
 
 #include "runtime/log/event.h"

@@ -27,7 +27,7 @@ class AxisCourse {
     /// As it is at that time, with its speed from then on.
     AxisCourse(double time, AxisMoment from);
 
-    /// What is executed up to `time` remains. Then to a position, at most at this speed (above 0) ...
+    /// The course up to `time` remains. Then to a position, at most at this speed (above 0) ...
     /// `jerk`: deg/s^3; 0 = not limited.
     AxisCourse movedTo(double time, double position, double speed, double acceleration,
                        double jerk = 0) const;

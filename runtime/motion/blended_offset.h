@@ -24,7 +24,7 @@ class BlendedOffset {
     /// No displacement now, nor at a time that is kept.
     bool isNone() const;
 
-    /// The path begins where the arm stands: no displacement.
+    /// The path begins where the arm is: no displacement.
     void reset();
     void store();
     void restore();

@@ -1,6 +1,6 @@
 #pragma once
 // Companions: robots that move together with the one of a run (synchronised movements of MultiMove). Each has a route of
-// its own with as many legs as the leader's; one common place, that on the leader's route, tells where all of them are.
+// its own with as many legs as the leader's; one common place, that on the leader's route, gives the places of all of them.
 
 #include "runtime/motion/route.h"
 #include "runtime/motion/stretch_limits.h"
@@ -17,7 +17,7 @@ class Companions {
     /// The next leg of every companion, in their order. `fixed`: the part of the leader's route up to there can no longer
     /// change. False when a corner is not possible; nothing has changed then.
     bool append(std::vector<Leg> legs, const Route& leader, double fixed);
-    /// What brakes or forbids a companion on a stretch of the leader limits the leader as well.
+    /// A stretch where a companion brakes or cannot move limits the leader as well.
     void tighten(const Route& leader, const RouteStretch& stretch, StretchLimits& limits) const;
 
     void add(const robot::AccelerationMap& accelerations) { members_.push_back({{}, accelerations}); }

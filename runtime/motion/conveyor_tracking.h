@@ -42,7 +42,7 @@ class ConveyorTracking : public PathModifier {
     ConveyorTracking(std::function<TimeNs()> now, std::function<bool()> isHeld)
         : now_(std::move(now)), isHeld_(std::move(isHeld)) {}
 
-    /// What the movement ordered last follows; null: it does not follow an object.
+    /// The object that the movement ordered last follows; null: it does not follow one.
     const OnConveyor* ordered() const { return ordered_.get(); }
     void setOrdered(std::shared_ptr<const OnConveyor> ordered);
     /// The arm is beside its planned path, or moves along with a conveyor.

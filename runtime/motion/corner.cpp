@@ -107,7 +107,7 @@ void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
                                 corner.isSmooth ? kSmoothTension : 0);
     const bool isScaled = corner.isSmooth && (a.perMm != 1 || b.perMm != 1);
     const auto rate = [&](double x) {
-        // Where turning counts on a leg the unit of the route changes steadily, too.
+        // On a leg where turning counts the unit of the route changes steadily, too.
         const double perMm = isScaled ? a.perMm + (b.perMm - a.perMm) * smoothStep(x) : 1;
         return perMm * norm(corner.space.slopeAt(x));
     };

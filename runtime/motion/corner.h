@@ -42,7 +42,7 @@ inline constexpr double kCornerTension = 0.757;
 /// its ends it bends as the legs do, so that the axes need no sudden change of acceleration.
 inline constexpr double kSmoothTension = 0.48 * kCornerTension;
 
-/// Where the arm angle of a seven-axis arm lies in the vector below: the place of external axis a, which it leaves free.
+/// The place of the arm angle of a seven-axis arm in the vector below: that of external axis a, which it leaves free.
 inline constexpr std::size_t kArmAnglePlace = robot::kMostJoints;
 /// Angles of all axes in one vector, for curves in joint space.
 struct AxisVector {

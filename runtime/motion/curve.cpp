@@ -136,7 +136,7 @@ Pose CartesianCurve::at(double s) const {
 
 namespace {
 
-/// Triggers of a whole path to its two parts, of these lengths in mm. What is timed before the end belongs to the second.
+/// Triggers of a whole path to its two parts, of these lengths in mm. Triggers timed before the end belong to the second.
 void shareOut(const std::vector<PathTrigger>& triggers, double first, double second,
               std::vector<MoveCommand>& halves) {
     halves[0].triggers.clear();

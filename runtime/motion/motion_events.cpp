@@ -82,7 +82,7 @@ std::optional<double> MotionSystem::Impl::triggerTime(const Move& move, const Pa
     if (wanted.inTime) {
         time = wanted.fromStart ? startTime(move) : arrivalTime(move);
         if (time) *time += wanted.fromStart ? wanted.amount : -wanted.amount;
-        // What is timed from the end cannot happen before the move begins.
+        // A trigger timed from the end cannot fire before the move begins.
         if (const auto start = startTime(move); time && start) time = std::max(*time, *start);
     } else {
         time = path().timeAt(placeOf(move, wanted));
@@ -146,7 +146,7 @@ void MotionSystem::Impl::finishFront() {
             level.carried.back().wanted.nextMove = false;
             level.carried.back().wanted.fromStart = true;
         } else if (!std::exchange(trigger.fired, true)) {
-            // What was to fire later than the point is reached fires with it.
+            // A trigger due later than the point is reached fires with it.
             report(MotionEventKind::Trigger, move.get(), trigger.wanted.id);
         }
     }

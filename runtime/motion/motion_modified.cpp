@@ -111,7 +111,7 @@ void MotionSystem::Impl::measureSpeeds(MotionState& state, const PlannedMoment& 
     state.tcpSpeed = norm(modifiers.placeInObject(planned, state.tcp) - before->tcpInObject) / seconds;
 }
 
-/// Where the arm is on its path now, or would be if it were there.
+/// The place of the arm on its path now, or the one it would have if it were there.
 MotionState MotionSystem::Impl::pathStateNow() const {
     Span span;
     span.start = now;

@@ -161,7 +161,7 @@ void MotionSystem::Impl::finishDetour() {
     noteMotion();
 }
 
-/// Where the path is after `mm` back: on the interrupted move, or from its start on the one before.
+/// The place on the path after `mm` back: on the interrupted move, or from its start on the one before.
 std::optional<PathPlace> MotionSystem::Impl::placeBack(double mm) const {
     constexpr double kNothing = 1e-6;
     if (path().isEmpty()) return {};

@@ -8,7 +8,7 @@ namespace motion {
 
 namespace {
 
-/// Where the model says; else all axes at 0, or as near to it as their ranges allow, axis 5 of six off its singularity.
+/// The start position of the model; else all axes at 0, as near as their ranges allow, axis 5 of six off its singularity.
 Joints startPosture(const robot::RobotModel& model, std::size_t axes) {
     if (model.home.size() == axes) return model.home;
     Joints joints = Joints::zeros(axes);

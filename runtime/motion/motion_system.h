@@ -1,5 +1,5 @@
 #pragma once
-// MotionSystem: the arm of one robot on the controller's clock. Moves are ordered ahead of motion and run one
+// MotionSystem: the arm of one robot on the controller's clock. Moves are ordered before they are run, one
 // after another; everything that happens is reported as events with exact times. Deterministic: the state
 // depends only on the calls made and the times given. Time is int64 nanoseconds of the virtual clock; no call
 // goes back in time.
@@ -35,7 +35,7 @@ enum class MoveStatus : uint8_t {
 
 enum class MotionEventKind : uint8_t {
     Started,  ///< the move has begun
-    Released, ///< a program that ordered this move and waits for it may go on (see releaseTime)
+    Released, ///< a program that ordered this move and waits for it may continue (see releaseTime)
     Trigger,  ///< a PathTrigger fired; `trigger` is its id
     Reached,  ///< a stop point: in position; a fly-by point: in the middle of its corner
     Stopped,  ///< standing still after stop()
@@ -57,14 +57,14 @@ struct MotionOptions {
     const robot::ExternalUnit* baseMover =
         nullptr;                ///< moves the base of the robot; outlives the motion system
     std::size_t maxQueued = 64; ///< moves ordered ahead; more is QueueFull
-    /// How long before its zone is entered, or braking for its point has to begin, a fly-by move lets the program go on.
+    /// How long before its zone is entered, or braking for its point has to begin, a fly-by move lets the program continue.
     TimeNs programLead = 100'000'000;
     Planner planner = Planner::Measured;
 };
 
 class MotionSystem {
   public:
-    /// The arm stands at all joints 0, joint 5 at 30 degrees, at time 0.
+    /// The arm is at joints 0, joint 5 at 30 degrees, at time 0.
     explicit MotionSystem(robot::RobotModel model, MotionOptions options = {});
     ~MotionSystem();
     MotionSystem(MotionSystem&&) noexcept;
@@ -77,7 +77,7 @@ class MotionSystem {
 
     // ---- ordering moves ----
     /// Orders a move from where the last ordered one ends. Returns at once; the move starts now if the arm
-    /// stands idle, otherwise after the moves before it. All geometric errors are found here and leave the
+    /// is idle, otherwise after the moves before it. All geometric errors are found here and leave the
     /// queue as it was.
     Expected<MoveId, MotionError> enqueue(const MoveCommand& command);
     // ---- synchronised movements ----
@@ -98,7 +98,7 @@ class MotionSystem {
     enqueueTogether(const std::vector<MotionSystem*>& systems, const std::vector<MoveCommand>& commands);
 
     /// Throws away all moves not finished (ClearPath, program pointer moved). The arm must stand still: a
-    /// moving arm is stopped on its path first and the rest is thrown away when it stands.
+    /// moving arm is stopped on its path first and the rest is dropped when it is at rest.
     void clear();
     /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
     /// otherwise.
@@ -121,11 +121,11 @@ class MotionSystem {
     void setExternalAxis(std::size_t axis, const ExternalAxisModel& model);
 
     // ---- path levels ----
-    /// Puts the unfinished moves aside (StorePath): what is ordered next runs from where the arm stands, also
+    /// Puts the unfinished moves aside (StorePath): moves ordered next run from where the arm is, also
     /// after a stop(). False while the arm moves. Levels nest.
     bool storePath();
-    /// Takes back what was put aside last (RestoPath), stopped as it was then. If the arm stands elsewhere it
-    /// first goes back to the path axis by axis when motion goes on. False while moves of this level are
+    /// Restores the path that was put aside last (RestoPath), stopped as it was then. If the arm is elsewhere it
+    /// first goes back to the path axis by axis when motion continues. False while moves of this level are
     /// unfinished or when nothing was put aside.
     bool restorePath();
     /// Throws away the unfinished moves of every level that was put aside, and those levels.
@@ -142,21 +142,21 @@ class MotionSystem {
     /// already.
     void stop();
     /// Motors off (emergency stop, power failure): each axis brakes for itself, which takes the arm off its path. start()
-    /// brings it back, axis by axis, to where stop() would have left it, and goes on from there.
+    /// brings it back, axis by axis, to where stop() would have left it, and continues from there.
     void halt();
-    /// Goes on from where stop() left the path.
+    /// Continues from where stop() left the path.
     void start();
     bool isStopRequested() const; ///< between stop() and start()
-    /// Takes an arm that halt() left beside its path back to it, axis by axis, and holds it there. While it stands still
+    /// Takes an arm that halt() left beside its path back to it, axis by axis, and holds it there. While it is at rest
     /// between halt() and start(); otherwise nothing happens.
     void returnToPath();
     /// Moves the arm, stopped and standing on its path, back along it by `mm` of TCP path, at most at `mmPerSecond` and the
-    /// programmed speed; a Stopped event follows, start() goes on from there. At most to the beginning of the interrupted
+    /// programmed speed; a Stopped event follows, start() continues from there. At most to the beginning of the interrupted
     /// move; from its beginning, within the move before. False when there is nothing more to step back on, or the arm is
     /// not standing so.
     bool stepBack(double mm, double mmPerSecond);
     /// The triggers of the interrupted move fire again on what remains of its path; those whose place is passed, at once
-    /// when it goes on (restart after a power failure, manual 2.3). The arm stands still.
+    /// when it continues (restart after a power failure, manual 2.3). The arm is at rest.
     void rearmTriggers();
 
     /// Operator's speed override, percent 0..100, from now on; the current move changes speed on its path. 0
@@ -170,7 +170,7 @@ class MotionSystem {
     /// From now on this axis moves for itself: all questions about the arm show it where the course has it, while the path is
     /// planned and executed as if it were not so. Another course replaces the one before.
     void setIndependent(GroupAxis axis, AxisCourse course);
-    /// Back on the path, at this position of the axis (deg, mm). Only while the arm is idle and stands; false otherwise.
+    /// Back on the path, at this position of the axis (deg, mm). Only while the arm is idle and at rest; false otherwise.
     bool endIndependent(GroupAxis axis, double position);
     /// Null when the axis does not move for itself.
     const AxisCourse* independent(GroupAxis axis) const;
@@ -178,7 +178,7 @@ class MotionSystem {
     std::vector<GroupAxis> independentAxes() const;
 
     // ---- time ----
-    /// Lets motion go on until `time`; events up to and including it are collected.
+    /// Continues motion until `time`; events up to and including it are collected.
     void advanceTo(TimeNs time);
     TimeNs now() const;
     /// When the next event will happen if nothing is called before; none when nothing moves.

@@ -72,7 +72,7 @@ struct StopPoint {
 /// The stop point that meets the conditions of both: of robots that move together.
 StopPoint strictest(const StopPoint& a, const StopPoint& b);
 
-/// What the robot carries: tool and payload together.
+/// The load of the robot: tool and payload together.
 struct CarriedLoad {
     double mass = 0;    ///< kg
     double inertia = 0; ///< kg m^2, the greatest about an axis through the flange
@@ -91,7 +91,7 @@ struct MotionSettings {
 };
 
 /// Something to be reported when the TCP passes a place on the path (TriggIO and friends). A place before the start of
-/// the path is its start, one behind its end is its end.
+/// the path is its start, one after its end is its end.
 struct PathTrigger {
     uint32_t id = 0;        ///< the caller's name for it
     bool fromStart = false; ///< measured from the start of the move instead of its end
@@ -119,7 +119,7 @@ struct MoveCommand {
     CarriedLoad load;
     bool confJ = true;       ///< ConfJ\On: Joint moves take the programmed configuration
     bool confL = true;       ///< ConfL\On: lines and circles must arrive in the programmed configuration
-    bool concurrent = false; ///< \Conc: the program goes on when the move starts
+    bool concurrent = false; ///< \Conc: the program continues when the move starts
     MotionSettings settings;
     std::vector<PathTrigger> triggers;
     Modifications modifications; ///< what displaces the TCP from this path

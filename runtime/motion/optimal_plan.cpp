@@ -359,7 +359,7 @@ Course OptimalPlan::stopped(const Course& course, double now) const {
     const CourseState state = course.plannedAt(now);
     const double last = ramp ? ramp->ramp.end(ramp->from).p : course.endPlace();
     const bool isLate = !ramp || ramp->begin > now + kAtOnce;
-    // Where the path bends much, no even braking keeps the limits: the nearest place at which the arm can rest.
+    // On a path that bends much, no even braking keeps the limits: the nearest place at which the arm can rest.
     for (const double share : {0.05, 0.1, 0.2, 0.35, 0.5, 0.7}) {
         if (!isLate || !(state.v > 0)) break;
         const double to = state.s + share * (last - state.s);

@@ -70,9 +70,9 @@ MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Po
 
 class MotionPath {
   public:
-    MotionPath() = default; ///< stands still with all axes at 0
+    MotionPath() = default; ///< at rest with all axes at 0
 
-    /// Resolves the command from where the arm stands. All geometric errors are found here: reach, joint
+    /// Resolves the command from where the arm is. All geometric errors are found here: reach, joint
     /// range along the whole path, configuration, circle data, singularities.
     static Expected<MotionPath, MotionError> make(const robot::Kinematics& kinematics,
                                                   const JointTarget& start, const MoveCommand& command);

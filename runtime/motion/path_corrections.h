@@ -12,7 +12,7 @@ class PathCorrections final : public PathModifier {
     /// with at most 100 mm/s and 2000 mm/s^2 across it; slower where it is slower than 10 mm/s along its path.
     void setOffset(const Vec3& offset);
     const Vec3& offset() const { return offset_; }
-    /// The same after so many mm of path: what a sensor sees that looks ahead of the TCP.
+    /// The same after so many mm of path: the measurement of a sensor in front of the TCP.
     void setOffsetAhead(const Vec3& offset, double mm);
     /// For MoveCommand::modifications.
     const std::shared_ptr<const Modification>& modification() const { return modification_; }

@@ -11,9 +11,9 @@
 //
 // * Times: advance() comes at whole multiples of 4 ms, in order. displaced() is asked at any time that is still kept, and for
 //   times after the last advance(): a modifier with memory keeps samples up to forgetBefore() and interpolates.
-// * Stop on the path: the planned path brakes, isHeld is set, and speed becomes 0. What goes by `speed` or the place stops with it.
+// * Stop on the path: the planned path brakes, isHeld is set, and speed becomes 0. Modifiers that depend on `speed` or the place stop with it.
 // * Off the path (emergency stop) and on the way back to it nothing is asked; then all continues with what was there.
-// * ClearPath, a new path from where the arm stands: pathReplaced(); the displacement begins at none again.
+// * ClearPath, a new path from where the arm is: pathReplaced(); the displacement begins at none again.
 // * StorePath and RestoPath: pathStored(), pathRestored(); the path that is taken back continues with its displacement. Levels
 //   nest; storedPathsCleared() when all of them are thrown away.
 // * A pose that the arm cannot reach: the arm keeps as near to it as it can, stops on its path, and an OutOfReach event follows.
@@ -34,7 +34,7 @@ using TimeNs = int64_t;
 /// Period in which displacements advance: that of the trace.
 inline constexpr TimeNs kModifierPeriod = 4'000'000;
 
-/// What a modifier has to know of a movement that it displaces; each kind of modifier has its own.
+/// The data of a modifier for a movement that it displaces; each kind of modifier has its own.
 struct Modification {
     Modification() = default;
     virtual ~Modification() = default;
@@ -60,7 +60,7 @@ struct PlannedMoment {
     Pose tcp;    ///< in world; a stationary tool is where it is
     Pose object; ///< the displaced object frame in world
 
-    /// What the movement carries for the modifier that asks; null: nothing of this kind.
+    /// The data of the movement for the calling modifier; null: nothing of this kind.
     template <class T> const T* find() const {
         if (modifications == nullptr) return nullptr;
         for (const auto& modification : *modifications)
@@ -68,7 +68,7 @@ struct PlannedMoment {
         return nullptr;
     }
     /// The path coordinate system, as an orientation in world: x is the tangent of the path relative to the work object in the
-    /// programmed direction, y is (z of the tool) x (tangent), z is x cross y. Where the TCP hardly moves x is that of the tool.
+    /// programmed direction, y is (z of the tool) x (tangent), z is x cross y. If the TCP hardly moves, x is that of the tool.
     Quat pathFrame() const;
     /// Signed mm of path from another moment on the same path to this one.
     double distanceFrom(std::size_t otherRun, double otherS) const;

@@ -41,7 +41,7 @@ class PathModifiers {
     /// The latest one before that time; null when there is none within two periods.
     const ShownArm* shownBefore(TimeNs time) const;
 
-    /// A displaced pose was out of reach, and nobody has been told yet.
+    /// A displaced pose was out of reach, which has not been reported yet.
     std::optional<MotionError> unreported;
     /// The arm cannot reach the displaced pose now.
     bool isOutOfReach = false;

@@ -7,7 +7,7 @@
 
 namespace motion {
 
-/// What the arm itself may do.
+/// The limits of the arm itself.
 struct ArmLimits {
     const robot::AccelerationMap* accelerations = nullptr;
     Joints jerk{}; ///< deg/s^3

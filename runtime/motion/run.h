@@ -48,7 +48,7 @@ class Run {
     void limitSpeeds(double now, const SpeedLimits& most);
     /// Replans from `now` on: brakes as fast as the limits allow and rests there.
     void brake(double now);
-    /// Where brake() would let the arm come to rest.
+    /// The place where brake() would let the arm come to rest.
     double restPlace(double now) const;
     /// At rest at a place since `time`.
     void standAt(double time, double place);

@@ -26,7 +26,7 @@ struct StretchLimits {
     std::vector<AccelerationRow> more; ///< of robots that move together with this one
 };
 
-/// What the axes of one robot and the limits of a move allow.
+/// The limits of the axes of one robot and of a move.
 StretchLimits limitsOn(const RouteStretch& stretch, const MoveLimits& most,
                        const robot::AccelerationMap& accelerations);
 

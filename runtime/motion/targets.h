@@ -141,7 +141,7 @@ struct MotionError {
 /// (in steps of 5 degrees).
 Expected<Joints, robot::IkError> solveTarget(const robot::Kinematics& kinematics, const Pose& flange,
                                              const RobTarget& target, bool exactConf, const Joints& seed);
-/// What an error of the inverse means for a move to this position, at the end of its path.
+/// The meaning of an error of the inverse for a move to this position, at the end of its path.
 MotionError targetError(const robot::IkError& error, const Vec3& position);
 
 /// Length of a quaternion that still counts as 1, and what is wrong with others.

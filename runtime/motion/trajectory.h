@@ -1,5 +1,5 @@
 #pragma once
-// Trajectory: the runs of one path level in time: place on the path at a moment, moment at a place, stop, go on, go back,
+// Trajectory: the runs of one path level in time: place on the path at a moment, moment at a place, stop, continue, go back,
 // replace what is planned from a moment on. Times in seconds. Runs follow each other closely: the next one begins when
 // the last mm of the one before is left (docs/motion.md).
 
@@ -83,10 +83,10 @@ class Trajectory {
     virtual bool isMoving(double time) const;
     /// When everything comes to rest, as planned.
     virtual double restTime() const;
-    /// Where the arm would come to rest if hold() were called at that time, which has been planned already.
+    /// The place where the arm would come to rest if hold() were called at that time, which has been planned already.
     virtual PathPlace restPlaceIfHeld(double time) const;
 
-    /// Where the arm is, and its speed (mm/s) along the path.
+    /// The pose of the arm, and its speed (mm/s) along the path.
     struct Moment {
         PathPlace place;
         double speed = 0;
@@ -117,7 +117,7 @@ class Trajectory {
     virtual bool leadsToEnd() const {
         return !entries_.empty() && entries_.back().isScheduled && !entries_.back().run->isBraking();
     }
-    /// Where the last move ends, or the arm is when there is none.
+    /// The end of the last move, or the pose of the arm when there is none.
     const JointTarget& endTarget() const { return endTarget_; }
 
     // ---- back along the path ----

@@ -14,7 +14,7 @@ namespace rt {
 
 class CallCache {
   public:
-    /// What was kept for this name in a call from a module of a task; null: nothing. `from` is compared by address.
+    /// The routine kept for this name in a call from a module of a task; null: none. `from` is compared by address.
     const RoutineEntry* find(const String& name, const char* from, int32_t task) const {
         if (slots_ == nullptr) return nullptr;
         const std::size_t first = indexOf(name);

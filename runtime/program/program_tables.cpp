@@ -47,7 +47,7 @@ void ProgramTables::addUnit(const ProgramDesc& unit, LoadedModule module) {
 }
 
 void ProgramTables::take(const ProgramDesc& unit) {
-    // What a unit has of the language's data stays when its module leaves memory: others may refer to it.
+    // Data of the language in a unit stay when its module leaves memory: others may refer to them.
     const bool isNew = taken_.insert(&unit).second;
     for (uint32_t i = 0; i < unit.globalCount; ++i)
         if (isNew || (unit.globals[i].flags & kDataPredefined) == 0) globals_.push_back(&unit.globals[i]);
@@ -110,7 +110,7 @@ bool ProgramTables::remove(int32_t task, std::string_view module) {
 bool ProgramTables::isDeclaredIn(const GlobalDesc& data, int32_t task) const {
     if (data.task >= 0) return data.task == task;
     if ((data.flags & kDataPredefined) != 0) return true;
-    // A shared object: the row tells module and file of the first declaration, not its task.
+    // A shared object: the row has module and file of the first declaration, not its task.
     const LoadedModule* module = findModule(task, data.module);
     if (module == nullptr) return false;
     // Units name their file otherwise; no other module of the task has that name.

@@ -50,14 +50,14 @@ class ProgramTables {
     const std::vector<const RoutineDataDesc*>& routineData() const { return routineData_; }
     const std::vector<const TypeDesc*>& types() const { return types_; }
 
-    /// Module data that `task` sees: its own before shared ones. `module` may be empty; then `withLocal` tells whether
+    /// Module data that `task` sees: its own before shared ones. `module` may be empty; then `withLocal` says whether
     /// LOCAL data of any module count. Null when there is none.
     const GlobalDesc* findGlobal(std::string_view name, std::string_view module, int32_t task,
                                  bool withLocal) const;
     /// A routine; `module` may be empty: then a LOCAL one counts only for its own module `from`, and comes first.
     const RoutineEntry* findRoutine(std::string_view name, std::string_view module, std::string_view from,
                                     int32_t task) const;
-    /// What names in calls have led to with the present modules; empty after each change.
+    /// The routines that names in calls meant with the present modules; empty after each change.
     CallCache& calls() { return calls_; }
 
   private:

@@ -143,7 +143,7 @@ class Comparer {
         result_.most = share(0.95);
     }
 
-    /// Where the arm rests, a place just before it may be paired with one just after it: the median of five has no such peaks.
+    /// Near a rest of the arm, a place just before it may be paired with one just after it: the median of five has no such peaks.
     void smoothDelays() {
         const std::vector<PathPoint> points = result_.points;
         for (std::size_t i = 2; i + 2 < points.size(); ++i) {

@@ -167,7 +167,7 @@ Json totalsOf(const Analysis& analysis) {
             {"losses", lossesOf(analysis.losses)}};
 }
 
-/// What the page needs to find the acceleration limits of a posture (runtime/robot/dynamics.h); m, rad/s^2.
+/// The data from which the page finds the acceleration limits of a posture (runtime/robot/dynamics.h); m, rad/s^2.
 Json dynamicsOf(const robot::RobotModel& robot) {
     Json axes = Json::array();
     for (std::size_t i = 0; i < robot.maxSpeed.size(); ++i) {

@@ -7,7 +7,7 @@
 
 namespace rt::report {
 
-/// What a report shows of one robot.
+/// The report of one robot.
 struct RobotReport {
     Analysis analysis;
     const Recording* recording = nullptr; ///< null: nothing to compare with

@@ -18,7 +18,7 @@ bool looksTheSame(const Sample& a, const Sample& b) {
 
 } // namespace
 
-/// What one motion group does.
+/// The recording of one motion group.
 class RunRecorder::RobotSink final : public TraceSink {
   public:
     RobotSink(RunRecorder& recorder, std::size_t index) : recorder_(recorder), index_(index) {}

@@ -60,7 +60,7 @@ struct ArmPlane {
         return a1 + c2 * sine2 + along * cosine23 + up * sine23;
     }
 
-    /// Where the point lies on axis 1, that axis is at `axis1Deg`. False when the point is too near to axis 1 for
+    /// If the point lies on axis 1, that axis is at `axis1Deg`. False when the point is too near to axis 1 for
     /// the sideways offset, also for figures that are not numbers.
     bool aim(const Vec3& point, double axis1Deg, ArmTarget& target) const {
         target.x = point.x;

@@ -39,7 +39,7 @@ struct ExternalUnit {
 
     /// The frame that the unit moves, in world: the base frame of its last axis, moved by all of them.
     Pose frame(const ExternalAxes& axes) const;
-    /// Where the unit carries a frame that is given in world with all axes at 0.
+    /// The pose of a carried frame that is given in world with all axes at 0.
     Pose carry(const Pose& frameAtZero, const ExternalAxes& axes) const;
 };
 

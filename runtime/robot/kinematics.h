@@ -122,7 +122,7 @@ class Kinematics {
     /// direction x line), 90 towards the reference direction.
     double armAngle(const Joints& joints) const;
 
-    /// All branches. Where the pose is singular the angle that is free is taken from `seed`. Poses out of reach leave
+    /// All branches. If the pose is singular, the angle that is free is taken from `seed`. Poses out of reach leave
     /// valid = 0.
     void inverseAll(const Pose& flange, const Joints& seed, IkBranches& out,
                     double armAngleDeg = kSeedArmAngle) const;

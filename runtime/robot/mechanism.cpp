@@ -199,6 +199,13 @@ Expected<Joints, IkError> Mechanism::inverse(const Pose& flange, const ConfData&
     IkBranches branches;
     inverseAll(flange, seed, armAngleDeg, branches);
     if (branches.valid == 0) return Unexpected{IkError{}};
+    const Expected<Joints, IkError> named = inverseAmong(branches, conf, seed, false);
+    return named || namesBranch(conf.cfx) ? named : inverseAmong(branches, conf, seed, true);
+}
+
+/// The branch with the quarters of `conf`, and with its cfx unless `any` may be taken.
+Expected<Joints, IkError> Mechanism::inverseAmong(const IkBranches& branches, const ConfData& conf,
+                                                  const Joints& seed, bool any) const {
     const std::array<int, 3> axes = quarterAxes();
     const int wanted[3] = {conf.cf1, conf.cf4, conf.cf6};
     IkError error{IkErrorKind::NoSuchConfiguration, 0, 0};
@@ -207,7 +214,7 @@ Expected<Joints, IkError> Mechanism::inverse(const Pose& flange, const ConfData&
     for (int k = 0; k < static_cast<int>(kMostBranches); ++k) {
         if (!branches.has(k)) continue;
         Joints candidate = branches.joints[static_cast<std::size_t>(k)];
-        if (configuration(candidate).cfx != conf.cfx) continue;
+        if (!any && configuration(candidate).cfx != conf.cfx) continue;
         for (std::size_t i = 0; i < jointCount(); ++i)
             if (!isLinear(i)) candidate[i] = nearestTurnWithin(candidate[i], seed[i], lower_[i], upper_[i]);
         int off = 0; // quarters by which the solution misses the configuration, in all

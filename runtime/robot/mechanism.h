@@ -45,6 +45,9 @@ class Mechanism {
     virtual Singularity singularity(const Joints& joints) const = 0;
     virtual JacobianMatrix jacobian(const Joints& joints) const = 0;
 
+    /// cfx of a target names one of the branches. Otherwise every branch may be meant: what the manufacturer calls it is
+    /// not public.
+    virtual bool namesBranch(int) const { return true; }
     virtual double armAngle(const Joints& joints) const;
     virtual Expected<Joints, IkError> inverse(const Pose& flange, const ConfData& conf, const Joints& seed,
                                               double armAngleDeg) const;
@@ -91,6 +94,8 @@ class Mechanism {
     /// The angle in the middle of a quarter revolution.
     double middleOf(int quarter) const { return 90.0 * quarter + 45.0 - quarterShift_; }
     /// The three axes whose quarter revolutions are cf1, cf4 and cf6, as indices; -1 for none.
+    Expected<Joints, IkError> inverseAmong(const IkBranches& branches, const ConfData& conf,
+                                           const Joints& seed, bool any) const;
     std::array<int, 3> quarterAxes() const;
     ConfData quarters(const Joints& joints, int cfx) const;
     /// Largest difference of an axis after each rotary axis of `candidate` was turned to the one nearest to `seed`.

@@ -180,7 +180,7 @@ Expected<RobotModel, ModelError> readFile(const std::filesystem::path& path) {
     return parseRobotModel(text.str(), fmt::format("'{}'", path.string()));
 }
 
-/// Adds the models of a folder; a file that is no model is remembered, for it matters only when the search
+/// Adds the models of a folder; a file that is not a model is remembered, for it matters only when the search
 /// fails.
 void addFolder(const std::string& folder, std::vector<RobotModel>& models, std::string& problems) {
     std::vector<std::filesystem::path> files;

@@ -51,6 +51,7 @@ class OffsetWrist final : public SixAxes {
                          Joints& out) const override;
 
   protected:
+    bool namesBranch(int) const override { return false; }
     double side(const Joints& joints) const override { return jacobianDeterminant(joints); }
 
   private:

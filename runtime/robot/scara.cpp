@@ -51,7 +51,7 @@ void Scara::inverseAll(const Pose& flange, const Joints& seed, double /*armAngle
     double cosine = (x * x + y * y - upper * upper - fore * fore) / (2 * upper * fore);
     if (!(std::fabs(cosine) <= 1 + 1e-9)) return;
     cosine = std::clamp(cosine, -1.0, 1.0);
-    // Where the flange is on axis 1 (equal links, folded), that axis is free.
+    // If the flange is on axis 1 (equal links, folded), that axis is free.
     const bool isFree = x * x + y * y < 1e-12;
     for (double side : {1.0, -1.0}) {
         const double sine = side * std::sqrt(1 - cosine * cosine);

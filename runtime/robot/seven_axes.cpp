@@ -104,6 +104,7 @@ class SevenAxes final : public Mechanism {
     bool inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                          Joints& out) const override;
     ConfData configuration(const Joints& joints) const override;
+    bool namesBranch(int cfx) const override { return cfx >= 0 && cfx <= 7; }
     Singularity singularity(const Joints& joints) const override;
     JacobianMatrix jacobian(const Joints& joints) const override;
     double armAngle(const Joints& joints) const override;

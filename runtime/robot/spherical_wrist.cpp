@@ -128,7 +128,7 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
     if (!takeApart(flange, seed, target)) return Unexpected{IkError{}};
     Joints joints;
     if (conf.cfx < 0 || conf.cfx > 7) return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, 0, 0}};
-    // Where axis 4 is free it goes into its quarter, as near to the seed as that lets.
+    // If axis 4 is free it goes into its quarter, as near to the seed as that lets.
     const double axis4 = std::clamp(seed[3], 90.0 * conf.cf4, 90.0 * conf.cf4 + 90.0);
     if (!solveBranch(target, conf.cfx, axis4, seed[5], joints)) {
         ArmBranch arm;

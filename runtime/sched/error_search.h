@@ -1,5 +1,5 @@
 #pragma once
-// Who handles an error: the rules of manual chapter 1.12 over the chain of frame records. Pure functions.
+// Finds the handler of an error: the rules of manual chapter 1.12 over the chain of frame records. Pure functions.
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/sched/task.h"
@@ -28,7 +28,7 @@ inline bool isBoundary(const Frame& frame) {
 /// The statement in progress belongs to the routine's error handler.
 bool inErrorHandler(const Frame& frame);
 
-/// Where an error goes.
+/// The handler that an error goes to.
 struct ErrorRoute {
     Frame* handler = nullptr; ///< null: to the system handler
     bool longJump =

@@ -4,6 +4,7 @@
 #include "runtime/sched/task.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rt {
 namespace {
@@ -27,7 +28,7 @@ SystemEvent systemEventOf(std::string_view shelf) {
 }
 
 const char* nameOf(SystemEvent event) {
-    return kNames[indexOf(event)];
+    return event == SystemEvent::Visit ? "" : kNames[indexOf(event)];
 }
 
 void EventRoutines::add(SystemEvent event, EntryFunction routine) {
@@ -40,7 +41,7 @@ void EventRoutines::owe(SystemEvent event) {
     if (goesOn && !runsWhileStopped(event)) return;
     if (std::find(owed_.begin(), owed_.end(), event) != owed_.end()) return;
     owed_.push_back(event);
-    task_.interruptPosted(); // wakes it: what it waits for goes on waiting afterwards
+    task_.interruptPosted(); // wakes it: its wait continues afterwards
 }
 
 bool EventRoutines::owed() const {
@@ -61,8 +62,46 @@ Status EventRoutines::runOwed() {
     return kOk;
 }
 
+void EventRoutines::order(Visit visit) {
+    visit_ = std::move(visit);
+    owed_.push_front(SystemEvent::Visit);
+    task_.interruptPosted();
+}
+
+Status EventRoutines::runVisit() {
+    const Visit visit = std::exchange(visit_, nullptr);
+    const Status status = visitNow(visit);
+    return status > 0 ? kOk : status; // whoever visits knows of errors
+}
+
+bool EventRoutines::endVisit() {
+    if (running_ == SystemEvent::Visit) {
+        task_.endEventRoutine();
+        return true;
+    }
+    visit_ = nullptr;
+    std::erase(owed_, SystemEvent::Visit);
+    return false;
+}
+
+Status EventRoutines::visitNow(const Visit& visit) {
+    Frame* const interrupted = task_.frame;
+    Task::ErrorInProgress error = task_.errorInProgress();
+    const int32_t interruptNumber = task_.interruptNumber;
+    const SystemEvent outer = std::exchange(running_, SystemEvent::Visit);
+    Frame boundary{interrupted, &kEventBoundary, -1, 0};
+    task_.frame = &boundary;
+    const Status status = visit(task_, &boundary);
+    running_ = outer;
+    task_.frame = interrupted;
+    task_.setErrorInProgress(std::move(error));
+    task_.interruptNumber = interruptNumber;
+    return task_.takeEventEnd() ? kOk : status;
+}
+
 Status EventRoutines::run(SystemEvent event) {
-    // What was interrupted must not see that something ran in between.
+    if (event == SystemEvent::Visit) return runVisit();
+    // The interrupted code must not see that something ran in between.
     Frame* const interrupted = task_.frame;
     const int32_t errorNumber = task_.errorNumber;
     const SystemEvent outer = running_;

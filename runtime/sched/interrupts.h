@@ -48,7 +48,7 @@ class InterruptTable {
     /// At most this many occurrences wait in the queue; a further one is lost, with an event. The manual names no
     /// limit; without one a program that never enables its interrupts would use up all memory.
     static constexpr std::size_t kMaxQueued = 1000;
-    /// What made an interrupt occur, for those who ask in the trap (GetTrapData).
+    /// The cause of an interrupt, for GetTrapData in the trap.
     using Cause = std::shared_ptr<const void>;
     /// A call that is executed as a trap routine is, without a number (MoveLSync). It finds its routine when it is called and calls
     /// it with the frame given; positive: an error to be raised there.

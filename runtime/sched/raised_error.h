@@ -28,7 +28,7 @@ class RaisedError {
         number_ = number;
         if (note_ != nullptr || !detail.empty()) setDetail(detail);
     }
-    /// What an earlier process knew of it.
+    /// The part of it that an earlier process kept.
     static RaisedError described(std::string text, SourcePlace place);
 
     /// From now on it is another error at the same place.
@@ -46,7 +46,7 @@ class RaisedError {
 
   private:
     void setDetail(const std::string& detail);
-    /// What few errors have.
+    /// The part that few errors have.
     struct Note {
         std::string text;                 ///< the detail, or all of it
         std::optional<SourcePlace> place; ///< instead of the routine's

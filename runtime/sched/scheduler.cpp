@@ -40,7 +40,7 @@ Scheduler::~Scheduler() = default;
 
 // ---- Time ----------------------------------------------------------------------------------------------------------
 
-/// What the running task owes so far in this slice, its debt included.
+/// The instructions that the running task owes so far in this slice, its debt included.
 int64_t Scheduler::unitsUsed() const {
     const int64_t instructions = granted_ - (running_->budget + running_->stash_);
     // A counted loop without calls is charged ahead as a whole: a year of it must not overflow.
@@ -197,8 +197,14 @@ void Scheduler::settle(Task& task) {
 RunEnd Scheduler::run(const std::function<bool()>& isOver) {
     anchorWall();
     for (;;) {
+        if (inbox_ != nullptr) inbox_->run();
+        if (holds_ && holdStill()) {
+            if (isOver()) return RunEnd::Over;
+            continue;
+        }
         fireDueEvents();
         if (isOver()) return RunEnd::Over;
+        if (holds_ && holds_()) continue;
         if (now_ >= options_.maxTime) return RunEnd::MaxTime;
         if (Task* task = takeRunnable()) {
             if (paced()) sleepOutside(now_);
@@ -211,6 +217,18 @@ RunEnd Scheduler::run(const std::function<bool()>& isOver) {
         }
         jumpTo(std::min(nextEventTime(), options_.maxTime));
     }
+}
+
+/// False: the program continues.
+bool Scheduler::holdStill() {
+    if (!holds_()) return false;
+    if (beforeSleep_) beforeSleep_();
+    if (inbox_ != nullptr) {
+        inbox_->wait(static_cast<int>(kLongestSleep / kMillisecond)); // signals are looked at in between
+        inbox_->run();
+    }
+    anchorWall();
+    return true;
 }
 
 void Scheduler::abandonTasks() {
@@ -266,6 +284,7 @@ void Scheduler::sleepOutside(Time until) {
     std::vector<pollfd> files;
     for (const ExternalWait* wait : externals_)
         files.push_back({wait->fd, wait->events, 0});
+    if (inbox_ != nullptr) files.push_back({inbox_->descriptor(), POLLIN, 0});
     const Time ahead = until == kNever ? kNever : until - wallTime();
     if (ahead > 0 && beforeSleep_) beforeSleep_();
     timespec span{};
@@ -273,7 +292,7 @@ void Scheduler::sleepOutside(Time until) {
     const int ready = ppoll(files.data(), files.size(), &span, nullptr);
     moveTo(std::min(until, std::max(now_, wallTime())));
     if (ready <= 0) return;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t i = 0; i < externals_.size(); ++i) {
         if (files[i].revents == 0) continue;
         externals_[i]->ready = true;
         makeReady(*externals_[i]->task);

@@ -3,6 +3,7 @@
 // order of everything follows from times and sequence numbers alone. See README.md for the rules of time.
 
 #include "runtime/base/time.h"
+#include "runtime/sched/inbox.h"
 #include "runtime/sched/task.h"
 
 #include <cstdint>
@@ -75,6 +76,10 @@ class Scheduler {
     /// Called before the thread sleeps for the wall clock or for something outside (flush what people look
     /// at).
     void setBeforeSleep(std::function<void()> hook) { beforeSleep_ = std::move(hook); }
+    /// Commands of other threads, executed between the tasks; null: none come. Must outlive the runs.
+    void setInbox(Inbox* inbox) { inbox_ = inbox; }
+    /// While `holds` is true nothing executes and virtual time does not pass; only commands are taken. Asked between the tasks.
+    void setHold(std::function<bool()> holds) { holds_ = std::move(holds); }
     /// Ends all tasks without UNDO; afterwards none is on a fibre. `run` must not be active.
     void abandonTasks();
 
@@ -124,6 +129,7 @@ class Scheduler {
     Time wallTime() const;
     bool paced() const { return options_.realtime || paceHolds_ > 0 || !externals_.empty(); }
     void sleepOutside(Time until);
+    bool holdStill();
 
     SchedulerOptions options_;
     Time now_ = 0;
@@ -146,6 +152,8 @@ class Scheduler {
     int64_t anchorWall_ = 0; // ns of the steady clock
     std::function<void(Time)> timeObserver_;
     std::function<void()> beforeSleep_;
+    Inbox* inbox_ = nullptr;
+    std::function<bool()> holds_;
 };
 
 } // namespace rt

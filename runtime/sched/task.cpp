@@ -18,7 +18,7 @@
 namespace rt {
 namespace {
 
-/// The task stands somewhere as long as this lives.
+/// The task is halted as long as this lives.
 class StandingHere {
   public:
     StandingHere(Standing& place, Standing here) : place_(place), before_(std::exchange(place, here)) {}
@@ -153,7 +153,7 @@ Status Task::beginUnwind(Unwind cause) {
     return silent ? kUnwindSilent : kUnwind;
 }
 
-/// What a call that may suspend looks at first: the task may be on its way out.
+/// The first check of a call that may suspend: the task may be on its way out.
 Status Task::enterWait() {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (pendingUnwind_ != Unwind::None) return beginUnwind(pendingUnwind_);
@@ -325,7 +325,7 @@ Status Task::safepointOnce(Frame* at) {
             if (yieldWanted_) forceSafepoint();
         } else if (yieldWanted_) {
             if (standing_ == Standing::Between && at != nullptr && at->routine->stepping != 0) {
-                forceSafepoint(); // ahead of the next statement, where a later process could go on
+                forceSafepoint(); // before the next statement, where a later process could continue
                 return kOk;
             }
             yieldWanted_ = false;
@@ -405,7 +405,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
     return suspendStopped();
 }
 
-/// Stands still until started again or unwound.
+/// Halted until started again or unwound.
 Status Task::suspendStopped() {
     for (;;) {
         if (const Status status = events_.runOwed(); status < 0) return status;
@@ -440,6 +440,9 @@ Status Task::requireMovementAllowed() {
     const SystemEvent event = events_.running();
     if (!undo && (event == SystemEvent::None || event == SystemEvent::Start)) return kOk;
     if (undo) return fatal(static_cast<int>(EventId::MovementForbidden), "an UNDO handler");
+    if (event == SystemEvent::Visit)
+        return fatal(static_cast<int>(EventId::MovementForbidden),
+                     "an expression or the console of the debugger");
     return fatal(static_cast<int>(EventId::MovementForbidden),
                  std::string("a routine of the event ") + nameOf(event));
 }

@@ -55,24 +55,24 @@ enum class StopCause : uint8_t {
     None,
     Instruction, ///< Stop
     Order,       ///< controller action `stop`
-    Error,       ///< system handler; the failing instruction is executed again when the task goes on
-    Blocked,     ///< SystemStopAction \StopBlock: can go on only from main
-    Step,        ///< stands ahead of a statement (stepping profile)
+    Error,       ///< system handler; the failing instruction is executed again when the task continues
+    Blocked,     ///< SystemStopAction \StopBlock: can continue only from main
+    Step,        ///< halted before a statement (stepping profile)
     AtMain,      ///< program pointer at main after pp_to_main or EXIT, not started yet
 };
 
 enum class WaitResult : uint8_t { Done, Timeout };
 
-/// Where a task is while it does not execute: what a later process has to do with the statement of its innermost frame.
+/// The place of a task that does not execute: how a later process treats the statement of its innermost frame.
 enum class Standing : uint8_t {
     Between,     ///< somewhere inside a statement
-    AtStatement, ///< ahead of a statement (stepping profile)
+    AtStatement, ///< before a statement (stepping profile)
     InWait,      ///< in an instruction that waits; started again it counts from the beginning
     BehindStop,  ///< Stop has been executed
     AtError,     ///< the statement failed; started again it is executed again
 };
 
-/// What a task knows of the errors it is handling. Frames are named by their depth, main's is 0.
+/// The errors that a task is handling. Frames are named by their depth, main's is 0.
 struct ErrorMemory {
     struct Retries {
         std::size_t depth = 0;
@@ -99,7 +99,7 @@ struct OutsideWait {
     short events = 0; ///< POLLIN, POLLOUT of poll(2)
 };
 
-/// What a task waits for: until `condition` is true. It is looked at first at once, then whenever one of
+/// The wait of a task: until `condition` is true. It is checked first at once, then whenever one of
 /// `queues` is notified, when what is `outside` is ready, and every `pollPeriod` when that is not 0. Without a condition
 /// any notification ends the wait.
 struct WaitSpec {
@@ -112,7 +112,7 @@ struct WaitSpec {
     std::function<std::optional<OutsideWait>()> outside = {};
 };
 
-/// What a task asks of the controller it belongs to (so that tasks can be tested without one).
+/// The interface of a task to the controller it belongs to (so that tasks can be tested without one).
 class TaskHost {
   public:
     virtual EventLog& log() = 0;
@@ -124,7 +124,7 @@ class TaskHost {
     virtual int retryLimit() const = 0;
     /// The system handler has stopped this task.
     virtual void taskFailed(Task& task) = 0;
-    /// The task executed Stop and stands still now.
+    /// The task executed Stop and is halted now.
     virtual void taskStopped(Task&) {}
     /// The variables of the task have got their initial values because its program begins anew.
     virtual void programReset(Task&) {}
@@ -136,7 +136,7 @@ class TaskHost {
     virtual void cycleLeft(Task&) {}
     /// An error handler of the task executed RETRY.
     virtual void retried(Task&) {}
-    /// The task executed EXIT and will not go on by itself.
+    /// The task executed EXIT and will not continue by itself.
     virtual void taskExited(Task&) {}
     virtual void stopNormalTasks(StopCause cause) = 0;
 
@@ -171,20 +171,20 @@ class Task : public TaskCore {
     uint64_t cyclesDone() const { return cyclesDone_; }
     /// main has returned as often as asked (not EXIT): a further start is one after a cycle.
     bool endedByItself() const { return state_ == TaskState::Finished && !needsReset_; }
-    /// Variables hold what an earlier run left: they are not initialised ahead of main. Before the task runs.
+    /// Variables keep the values of an earlier run: they are not initialised before main. Before the task runs.
     void keepVariables() { needsReset_ = false; }
     bool keepsVariables() const { return !needsReset_; }
 
     // ---- What an earlier process left (--state); before the task runs ---------------------------------------
-    /// The task stands inside its program: `entry` (main, or the procedure the program pointer was moved to) is called,
+    /// The task is halted inside its program: `entry` (main, or the procedure the program pointer was moved to) is called,
     /// and `guide` leads from statement to statement until finishReentry() or abandonReentry().
     void reenter(StepHook& guide, EntryFunction entry);
     bool isReentering() const { return nextGuide_ != nullptr || guide_ != nullptr; }
-    /// The frames are there again; `behindStop`: the statement to go on with is a Stop that has been executed.
+    /// The frames are there again; `behindStop`: the statement to execute next is a Stop that has been executed.
     void finishReentry(const ErrorMemory& errors, bool behindStop);
     /// It cannot be entered: the program pointer goes to main. To be returned by the guide.
     Status abandonReentry();
-    /// Its cycles were over, and the run that goes on is the one in which they were.
+    /// Its cycles were over, and the run that continues is the one in which they were.
     void stayEnded() { stayEnded_ = true; }
     void setCyclesDone(uint64_t cycles) { cyclesDone_ = cycles; }
 
@@ -209,7 +209,7 @@ class Task : public TaskCore {
     Status yield();
     /// Charges instructions to the budget, for natives whose cost depends on their arguments.
     void charge(int64_t instructions) { budget -= instructions; }
-    /// What was granted for this slice is used up.
+    /// The instructions granted for this slice are used up.
     bool outOfBudget() const { return budget + stash_ < 0; }
     /// Lets other tasks run and time pass, without delivering interrupts.
     Status letTimePass();
@@ -220,7 +220,7 @@ class Task : public TaskCore {
     /// ExitCycle: ends this cycle; main begins again when cycles are left. Persistent and module data are
     /// unchanged.
     Status requestExitCycle();
-    /// Stop and its like (`instruction` is the name for the event): the task stands still until a `start`; returns kOk
+    /// Stop and its like (`instruction` is the name for the event): the task is halted until a `start`; returns kOk
     /// then. `allNormal`: so do all NORMAL tasks. In an UNDO handler it is ignored with a warning.
     Status stopHere(const char* instruction, bool allNormal = false,
                     StopCause cause = StopCause::Instruction);
@@ -256,7 +256,7 @@ class Task : public TaskCore {
     Status continueAtUser(int number, HandlerDecision& decision);
     /// No clause of the error handler at work lists the error: the system handler. Negative; kAgain after a start.
     Status errorNotListed();
-    /// What a trap routine must leave as it was: the error that the interrupted code handles.
+    /// The state that a trap routine must leave unchanged: the error that the interrupted code handles.
     struct ErrorInProgress {
         int32_t number = 0;
         RaisedError error;
@@ -266,9 +266,9 @@ class Task : public TaskCore {
         errorNumber = before.number;
         error_ = std::move(before.error);
     }
-    /// In that handler: how to go on; it returns to continueAtUser then.
+    /// In that handler: how to continue; it returns to continueAtUser then.
     void endDetached(HandlerDecision decision) { detached_.back().decision = decision; }
-    /// What the detached handler of the innermost routine decided before the stack was unwound to that routine; once.
+    /// The decision of the innermost routine's detached handler, before the stack was unwound to that routine; once.
     HandlerDecision takeDecision() { return std::exchange(decision_, kNotDecided); }
     /// SkipWarn: the error handled last leaves no warning in the event log.
     void skipWarn();
@@ -295,7 +295,7 @@ class Task : public TaskCore {
     /// handler reports it; negative, as fatal().
     Status requireMovementAllowed();
 
-    /// The task in whose background this one runs: it gets the processor only while that one waits or stands. Null: none.
+    /// The task in whose background this one runs: it gets the processor only while that one waits or is halted. Null: none.
     void setForeground(const Task* task) { foreground_ = task; }
     const Task* foreground() const { return foreground_; }
 
@@ -330,7 +330,7 @@ class Task : public TaskCore {
     void forceLook();
     /// Writes an event with the place of this task.
     void report(EventId id, std::initializer_list<std::string> arguments);
-    /// Stops the task where it is / lets it go on. resume() is false when it can go on from main only.
+    /// Stops the task where it is / continues it. resume() is false when it can continue from main only.
     void stop(StopCause cause);
     bool resume();
     bool canResume() const;
@@ -339,9 +339,9 @@ class Task : public TaskCore {
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
     /// Program pointer to a procedure without parameters: as moveToMain, but the next start begins there and data
-    /// keep their values, as `reset` tells.
+    /// keep their values, as `reset` says.
     void moveToRoutine(EntryFunction entry);
-    /// Stepping profile: who is asked ahead of every statement; null: nobody.
+    /// Stepping profile: the hook that is asked before every statement; null: none.
     void setStepHook(StepHook* hook) { stepHook_ = hook; }
     StepHook* stepHook() const { return stepHook_; }
     /// Interrupts are not handled while the task is stepped (manual 1.11).
@@ -355,7 +355,7 @@ class Task : public TaskCore {
         if (order) backwardCaller_ = nullptr;
         return order;
     }
-    /// Stands still until started again or unwound. Event routines that are due run first.
+    /// Halts until started again or unwound. Event routines that are due run first.
     Status suspendStopped();
     /// Stopped, and no event routine of the system executes meanwhile.
     bool mustStand() const { return isStopped() && !events_.executesStopped(); }
@@ -365,7 +365,7 @@ class Task : public TaskCore {
     bool takeEventEnd();
     /// Can be given the processor: not waiting and not stopped, or being unwound.
     bool runnable() const;
-    /// UNDO handlers or event routines of the system execute, or will before the task stands still.
+    /// UNDO handlers or event routines of the system execute, or will before the task halts.
     bool hasWorkWhileStopped() const {
         return isUnwinding() || events_.executesStopped() || (isStopped() && events_.owed());
     }
@@ -424,7 +424,7 @@ class Task : public TaskCore {
     Status startJump(Frame* target, int number, HandlerDecision decision = kNotDecided);
     Frame* findUserLevel(int number);
     Status leaveDetached(int number);
-    /// What travels up when UNDO handlers are not to run any more.
+    /// The status that travels up when UNDO handlers are not to run any more.
     Status silentStatus() const { return unwinding_ == Unwind::Jump ? kJumpSilent : kUnwindSilent; }
     void abortUndo(std::string why);
     /// Code of the stepping profile can execute the faulty statement again.
@@ -502,7 +502,7 @@ class Task : public TaskCore {
 
 static_assert(!std::is_polymorphic_v<Task>, "a Task must begin with its TaskCore: no virtual functions");
 
-/// The task behind what compiled code passes to every native.
+/// The task of the pointer that compiled code passes to every native.
 inline Task& taskOf(TaskCore* core) {
     return *static_cast<Task*>(core);
 }

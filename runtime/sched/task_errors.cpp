@@ -105,7 +105,7 @@ void Task::noteRaised(int number) {
     error_.set(number, at, errorDetail_);
 }
 
-/// What codegen calls for a check or RAISE: started again after the system handler, the instruction fails again.
+/// Called by compiled code for a check or RAISE: started again after the system handler, the instruction fails again.
 Status Task::raiseAt(Frame* at, int number) {
     const std::string detail = errorDetail_;
     Status status = raiseOnce(at, number);
@@ -161,6 +161,10 @@ Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* fro
     if (guide_ != nullptr) return guide_->failed(*this);
     const bool backward =
         stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
+    if (route.handler != nullptr && !backward && stepHook_ != nullptr && unwinding_ == Unwind::None &&
+        events_.running() == SystemEvent::None) {
+        if (const Status status = stepHook_->handledErrorRaised(*this, number); status < 0) return status;
+    }
     if (route.longJump && !backward) return startJump(route.handler, number);
     if (route.handler != nullptr && !backward) {
         noteHandled(route.handler, number);
@@ -269,7 +273,7 @@ Status Task::landAt(Frame* at, Status status) {
     errorNumber = jump.number;
     const Status stopped = suspendStopped(); // by an order that came while UNDO handlers ran
     if (stopped < 0) return stopped;
-    // Interrupts that occurred on the way come ahead of the first instruction of the handler.
+    // Interrupts that occurred meanwhile come before the first instruction of the handler.
     Status delivered = unwinding_ == Unwind::None && !isStopped() ? kAgain : kOk;
     while (delivered == kAgain)
         delivered = interrupts_.deliver();

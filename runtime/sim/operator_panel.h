@@ -15,7 +15,7 @@
 
 namespace rt {
 
-/// What an answer is.
+/// The kind of an answer.
 enum class DialogKind : uint8_t {
     Choice, ///< a key or button: its number from 1
     Number,

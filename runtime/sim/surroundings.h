@@ -25,7 +25,7 @@ class Surroundings {
     static constexpr const char* kPart = "part";
     /// Of a gripper, 1 while vacuum 1 or 2 is not reached: vacuum_failure_1, vacuum_failure_2.
     static constexpr const char* kVacuumFailure = "vacuum_failure";
-    /// What a robot really carries: kg, mm, kg m2.
+    /// The real load of a robot: kg, mm, kg m2.
     static constexpr const char* kLoadMass = "load_mass";
     static constexpr const char* kLoadCentre = "load_centre";   ///< load_centre_1 to 3: x, y, z
     static constexpr const char* kLoadInertia = "load_inertia"; ///< load_inertia_1 to 3

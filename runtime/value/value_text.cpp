@@ -22,7 +22,7 @@ std::string printed(const char* format, int digits, double value) {
     return {buffer, static_cast<size_t>(size)};
 }
 
-/// What %.*f of printf gives, to the byte.
+/// The same text as %.*f of printf, to the byte.
 std::string fixed(double value, int decimals) {
     char buffer[400]; // the largest number has 309 digits in front of the point
     char* const end = buffer + sizeof buffer;
@@ -125,7 +125,7 @@ class ValueReader {
         return false;
     }
 
-    /// The two digits behind a backslash; where there are none the backslash stands for itself.
+    /// The two digits after a backslash; without digits the backslash represents itself.
     char characterCode() {
         unsigned code = 0;
         const char* digits = text_.data() + at_;

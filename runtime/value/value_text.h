@@ -27,7 +27,7 @@ std::string valueToText(const void* data, const TypeDesc& type);
 /// The reverse. All or nothing: `data` is untouched when the text does not fit the type.
 bool textToValue(std::string_view text, void* data, const TypeDesc& type);
 
-/// A value as it stands in a declaration: it reads back as the very same value, with as few digits as that takes; bytes
+/// A value as a declaration has it: it reads back as the very same value, with as few digits as that takes; bytes
 /// of a string that cannot stand in a source become character codes (\0A). False when the value has no literal: a number
 /// that is not finite, a type without values.
 bool valueToSource(const void* data, const TypeDesc& type, std::string& text);

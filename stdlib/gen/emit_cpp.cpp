@@ -69,7 +69,7 @@ std::string prototype(const Model& model, const Routine& routine) {
     return fmt::format("{} {}({});\n", result, symbolOf(routine), args);
 }
 
-/// Records in an order in which each stands after the records it contains.
+/// Records in an order in which each comes after the records it contains.
 void emitRecord(const Model& model, const TypeInfo& type, std::set<std::string>& done, std::string& out) {
     if (!done.insert(lowered(type.name)).second) return;
     for (const auto& field : type.fields) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzz targets share.
+// The common part of the fuzz targets.
 
 #include "frontend/diag/diagnostic.h"
 

@@ -21,12 +21,12 @@ void check(const char* name, const std::string& bytes) {
     for (const syntax::Token& token : lexed.tokens) {
         require(token.offset >= end, "tokens overlap");
         end = size_t{token.offset} + token.length;
-        require(end <= text.size(), "a token behind the end");
+        require(end <= text.size(), "a token after the end");
         require(token.length > 0 || token.kind == syntax::TokenKind::EndOfFile, "an empty token");
     }
     for (const syntax::LexError& error : lexed.errors) {
         require(error.range.begin <= error.range.end && error.range.end <= text.size(),
-                "an error behind the end");
+                "an error after the end");
         const LineColumn at = file.lineColumn(error.range.begin);
         require(at.line >= 1 && at.line <= file.lineCount() && at.column >= 1, "a line that is not there");
     }

@@ -8,7 +8,7 @@ namespace rapid::fuzz {
 
 namespace {
 
-/// What these give differs from run to run.
+/// The results of these differ from run to run.
 bool tellsWallTime(std::string_view name) {
     constexpr std::string_view kNames[] = {"CTime",        "CDate",          "GetTime",     "FileTime",
                                            "FileTimeDnum", "ModTime",        "ModTimeDnum", "FSSize",

@@ -157,7 +157,7 @@ std::string ProgramMaker::numeric(const TypeOf& type, int depth) {
     case 3:
     case 4: return operand() + "*" + operand();
     case 5: return operand() + "/" + operand();
-    case 6: // constants that are no integers are errors of the checker
+    case 6: // constants that are not integers are errors of the checker
     case 7: {
         const std::string left = reference(type, 0, Access::Var, 0),
                           right = reference(type, 0, Access::Var, 0);

@@ -22,7 +22,7 @@ void require(bool condition, const char* what) {
 }
 
 void checkNode(const syntax::SyntaxTree& tree, const syntax::Node& node) {
-    require(node.last < tree.tokens.size(), "a node ends behind the last token");
+    require(node.last < tree.tokens.size(), "a node ends after the last token");
     syntax::forEachChild(node, [&](const syntax::Node& child) {
         if (child.first <= child.last)
             require(child.first >= node.first && child.last <= node.last, "a node lies outside its parent");

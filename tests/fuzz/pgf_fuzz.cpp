@@ -1,4 +1,4 @@
-// libFuzzer target: any bytes as a program file. What it names are file names that are there in some spelling.
+// libFuzzer target: any bytes as a program file. The names in it are file names that exist in some spelling.
 
 #include "frontend/project/program_file.h"
 #include "fuzz_support.h"

@@ -68,7 +68,7 @@ struct Sub {
     bool isLocal = false;
 };
 
-/// What the standard library offers, from its declarations.
+/// The routines and data of the standard library, from its declarations.
 class Catalog {
   public:
     /// `implemented`: is there a native of this name?

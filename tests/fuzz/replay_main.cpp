@@ -1,5 +1,5 @@
 // Runs one fuzz target over kept inputs, as a test does it: without libFuzzer, so that the ordinary build has it. A broken
-// promise ends the process; the name of the input stands before it.
+// promise ends the process; the name of the input is printed before it.
 //
 //   rapidc_replay_format tests/fuzz/corpus/format
 //
@@ -29,7 +29,7 @@ void replay(const std::filesystem::path& path) {
     LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
 }
 
-/// One input after the other, each of its own seed: that of a finding stands last in the output.
+/// One input after the other, each of its own seed: that of a finding is last in the output.
 size_t tryRandom(const std::string& order) {
     const size_t count = std::stoul(order);
     const size_t comma = order.find(',');

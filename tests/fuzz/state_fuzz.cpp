@@ -1,4 +1,4 @@
-// libFuzzer target: any bytes as the state of a controller. What is read can be written and reads back the same.
+// libFuzzer target: any bytes as the state of a controller. A state that was read can be written and reads back the same.
 
 #include "fuzz_support.h"
 #include "runtime/host/saved_state.h"

@@ -1,4 +1,4 @@
-"""The kinds of tests that are files: how each is found, run and judged."""
+"""Tests that are programs or command lines: how each is run and judged."""
 
 import dataclasses
 import difflib
@@ -16,11 +16,11 @@ DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
 # A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
 HANGS_AFTER_S = 60
 MODES = ("jit", "parts", "aot", "step")
-KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "issue", "fragment"}
+KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "rule"}
 
 
 class BadTest(Exception):
-    """The files of a test make no sense."""
+    """The files of a test are not a valid test."""
 
 
 @dataclasses.dataclass
@@ -64,7 +64,7 @@ def execute(command, cwd, timeout, stdin=None, environment=None):
 
 
 def directives_of(path):
-    """The `!@ name: value` lines of a RAPID file, wherever they stand."""
+    """The `!@ name: value` lines of a RAPID file, at any place."""
     found = {}
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
@@ -195,7 +195,7 @@ class ProgramTest:
         return problems
 
     def stimulus_of_folder(self):
-        """`rapidc run FOLDER` reads FOLDER/stimulus.csv by itself; a built executable must be told."""
+        """`rapidc run FOLDER` reads FOLDER/stimulus.csv by itself; a built executable needs the option."""
         path = os.path.join(self.path, "stimulus.csv")
         return ["--stimulus=" + path] if os.path.isdir(self.path) and os.path.exists(path) else []
 
@@ -265,101 +265,6 @@ def normal_signal_row(line):
         return (round(float(fields[0]), 2), fields[1].lower(), float(fields[2]))
     except ValueError:
         return None
-
-
-# ---- diagnostics --------------------------------------------------------------------------------------------------
-
-CARETS = re.compile(r"^(\s*!\s*)(\^+)\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?))?\s*$")
-EXPECT = re.compile(r"!@\s*expect\s+@?([+-]?\d+)(?::(\d+)(?:-(\d+))?)?\s+(error|warning|note)\[(RAP\d{4})\]"
-                    r"(?::\s*(.*?))?\s*$")
-END_OF_LINE = re.compile(r"\S.*!\s*(error|warning|note)\[(RAP\d{4})\](?::\s*(.*?))?\s*$")
-
-
-# Warnings that something is not implemented yet: they come and go with the work and are no part of a rule.
-STATE_OF_WORK = {"RAP7003", "RAP7004"}
-
-
-@dataclasses.dataclass
-class Expected:
-    line: int
-    column: int
-    end: int
-    severity: str
-    code: str
-    text: str
-
-    def matches(self, diagnostic):
-        return (diagnostic["line"] == self.line and diagnostic["severity"] == self.severity and
-                diagnostic["code"] == self.code and
-                (self.column == 0 or diagnostic["column"] == self.column) and
-                (self.end == 0 or diagnostic["endLine"] != diagnostic["line"] or
-                 diagnostic["endColumn"] == self.end) and
-                (not self.text or self.text in diagnostic["message"]))
-
-    def __str__(self):
-        place = f"{self.line}:{self.column}" if self.column else str(self.line)
-        return f"{place} {self.severity}[{self.code}] {self.text}"
-
-
-def annotations(lines):
-    """Expected diagnostics written in comments: under the place with carets, at the end of the line, or !@ expect."""
-    found, code_line = [], 0
-    for number, line in enumerate(lines, 1):
-        match = CARETS.match(line)
-        if match:
-            begin = len(match.group(1)) + 1
-            found.append(Expected(code_line, begin, begin + len(match.group(2)), match.group(3), match.group(4),
-                                  match.group(5) or ""))
-            continue
-        match = EXPECT.search(line)
-        if match:
-            found.append(Expected(number + int(match.group(1)), int(match.group(2) or 0), int(match.group(3) or 0),
-                                  match.group(4), match.group(5), match.group(6) or ""))
-            continue
-        code_line = number
-        match = END_OF_LINE.search(line)
-        if match and not line.lstrip().startswith("!"):
-            found.append(Expected(number, 0, 0, match.group(1), match.group(2), match.group(3) or ""))
-    return found
-
-
-class DiagnosticTest:
-    """A program whose expected diagnostics stand in its comments; all of them, and no others."""
-
-    def __init__(self, path):
-        self.path = path
-
-    def run(self, context, scratch):
-        lines = read(self.path).splitlines()
-        expected = annotations(lines)
-        directives = directives_of(self.path)
-        arguments = [a.replace("{dir}", os.path.dirname(self.path)) for a in
-                     shlex.split(directives.get("args", ""))]
-        # A program for one rule need not be tidy otherwise; those of 8xxx are about nothing else.
-        if os.sep + "8xxx" + os.sep not in self.path:
-            arguments = ["-W", "no-lint", *arguments]
-        command = [context.rapidc, "check", "--format=json", *arguments, self.path]
-        output = execute(command, scratch, 20)
-        try:
-            actual = [d for d in json.loads(output.stdout) if d["severity"] != "note"]
-        except (json.JSONDecodeError, TypeError, KeyError):
-            return ["check --format=json did not print JSON\n" + describe_failure(command, output) +
-                    "\nstdout: " + output.stdout[:500]]
-        problems = []
-        wants_error = any(e.severity == "error" for e in expected)
-        if output.status != (1 if wants_error else 0):
-            problems.append(f"expected exit status {1 if wants_error else 0}\n" + describe_failure(command, output))
-        rest = list(actual)
-        for want in expected:
-            hit = next((d for d in rest if want.matches(d)), None)
-            if hit is None:
-                problems.append(f"expected, not reported: {want}")
-            else:
-                rest.remove(hit)
-        rest = [d for d in rest if d["code"] not in STATE_OF_WORK]
-        problems += [f"reported, not expected: {d['line']}:{d['column']}-{d['endColumn']} "
-                     f"{d['severity']}[{d['code']}]: {d['message']}" for d in rest]
-        return problems
 
 
 # ---- command line -------------------------------------------------------------------------------------------------
@@ -445,92 +350,3 @@ class CommandTest:
             else:
                 raise BadTest(f"unknown expectation '{key}'")
         return problems
-
-
-# ---- documents ----------------------------------------------------------------------------------------------------
-
-FENCE = re.compile(r"^```([a-z-]*)\s*$(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
-
-
-class DocumentTest:
-    """RAPID blocks of a page compile; a block `output` right after one is what that program prints. Relative links
-    lead to files."""
-
-    def __init__(self, path):
-        self.path = path
-
-    def run(self, context, scratch):
-        text = read(self.path)
-        problems = []
-        blocks = [(m.group(1), m.group(2).lstrip("\n"), text.count("\n", 0, m.start()) + 1)
-                  for m in FENCE.finditer(text)]
-        for index, (language, code, line) in enumerate(blocks):
-            if language != "rapid" or not re.search(r"^\s*MODULE\b", code, re.MULTILINE):
-                continue
-            path = os.path.join(scratch, f"block{line}.modx")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(code)
-            follows = blocks[index + 1] if index + 1 < len(blocks) else ("", "", 0)
-            runs = follows[0] == "output"
-            command = [context.rapidc, "run" if runs else "check", path]
-            output = execute(command, scratch, 20)
-            if output.status != 0:
-                problems.append(f"line {line}: the block fails\n" + describe_failure(command, output))
-            elif runs and output.stdout != follows[1]:
-                problems.append(f"line {line}: " + difference(follows[1], output.stdout, "output"))
-        prose = FENCE.sub("", text)
-        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", prose):
-            if "://" in target or target.startswith("mailto:"):
-                continue
-            if not os.path.exists(os.path.join(os.path.dirname(self.path), target)):
-                problems.append(f"a link leads nowhere: {target}")
-        return problems
-
-
-# ---- discovery ----------------------------------------------------------------------------------------------------
-
-
-def discover_programs(root, prefix, found):
-    for where, folders, names in os.walk(root):
-        folders.sort()
-        relative = os.path.relpath(where, root)
-        base = prefix if relative == "." else f"{prefix}/{relative}"
-        if "expected.out" in names:
-            found[base] = ProgramTest(where, os.path.join(where, "expected"))
-            folders.clear()
-            continue
-        for name in sorted(names):
-            stem, suffix = os.path.splitext(name)
-            if suffix in SOURCE_SUFFIXES:
-                found[f"{base}/{stem}"] = ProgramTest(os.path.join(where, name), os.path.join(where, stem))
-
-
-def discover(source):
-    found = {}
-    tests = os.path.join(source, "tests")
-    for kind in ("golden", "tasks"):
-        discover_programs(os.path.join(tests, kind), kind, found)
-    discover_programs(os.path.join(source, "samples"), "samples", found)
-    for where, folders, names in os.walk(os.path.join(tests, "diag")):
-        folders.sort()
-        for name in sorted(names):
-            stem, suffix = os.path.splitext(name)
-            if suffix in SOURCE_SUFFIXES and not stem.endswith(".fixed"):
-                path = os.path.join(where, name)
-                found[os.path.relpath(os.path.join(where, stem), tests)] = DiagnosticTest(path)
-    for where, folders, names in os.walk(os.path.join(tests, "cli")):
-        folders.sort()
-        for name in sorted(names):
-            if name.endswith(".test"):
-                path = os.path.join(where, name)
-                found[os.path.relpath(path[:-5], tests)] = CommandTest(path)
-    pages = [os.path.join(source, "README.md")]
-    docs = os.path.join(source, "docs")
-    if os.path.isdir(docs):
-        pages += [os.path.join(docs, name) for name in sorted(os.listdir(docs)) if name.endswith(".md")]
-    for page in pages:
-        if os.path.exists(page):
-            name = os.path.relpath(page, source)
-            found["docs/" + os.path.basename(name)[:-3]] = DocumentTest(page)
-    return found
-

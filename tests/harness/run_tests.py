@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Runs the tests that are files: golden programs, tasks, diagnostics, command line, samples, blocks in documents.
+"""Runs the tests that are files: golden programs, tasks, diagnostics, phases, command line, samples,
+documents.
 
 A test's name is its path: golden/strings/strlen. Formats: tests/README.md.
 
   run_tests.py                      all of them
   run_tests.py golden/strings       those below a path
-  run_tests.py --update golden/x    writes what the program printed as the new expectation (say why in the commit)
+  run_tests.py --update golden/x    writes the new output as expectation, after review (say why in the commit)
 """
 
 import argparse
 import concurrent.futures
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,6 +21,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import cases  # noqa: E402
+from discovery import discover  # noqa: E402
 
 
 def bracket(text):
@@ -27,11 +30,22 @@ def bracket(text):
 
 
 def unit_cases(program):
-    """Names of the Catch2 cases in the unit test program; none when it is not built."""
+    """(name, tags) of the Catch2 cases in the unit test program; none when it is not built."""
     if not os.access(program, os.X_OK):
         return []
-    listing = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True, check=False)
-    return [line for line in listing.stdout.splitlines() if line.strip()]
+
+    def listing(option):
+        return subprocess.run([program, option], capture_output=True, text=True, check=False).stdout.splitlines()
+
+    names = [line for line in listing("--list-test-names-only") if line.strip()]
+    # --list-tests has the same order, but wraps long names: a case begins with two blanks, its tags with six.
+    tags = []
+    for line in listing("--list-tests"):
+        if re.match(r"^  \S", line):
+            tags.append([])
+        elif re.match(r"^      \[", line) and tags:
+            tags[-1] += re.findall(r"\[(\w[^\]]*)\]", line)
+    return list(zip(names, tags if len(tags) == len(names) else [[] for _ in names]))
 
 
 def case_filter(name):
@@ -41,22 +55,33 @@ def case_filter(name):
     return name
 
 
+# Groups that `./dev test --quick` leaves out: each of their tests starts several processes, or needs seconds.
+NOT_QUICK = {"cli", "fuzz"}
+# Unit tests with these tags need seconds.
+SLOW_TAGS = {"random", "large"}
+
+
 def write_ctest(path, source, build):
+    """Registers all tests. Labels: the group (unit, golden, diag ...), for unit tests their tags as well, and `quick`."""
     lines = []
 
-    def add(name, command, timeout):
+    def add(name, command, timeout, tags=()):
+        group = name.partition("/")[0]
+        labels = [group, *sorted(set(tags) - {group})]
+        if group not in NOT_QUICK and not SLOW_TAGS & set(tags):
+            labels.append("quick")
         lines.append(f"add_test({bracket(name)} {' '.join(bracket(word) for word in command)})")
         lines.append(f"set_tests_properties({bracket(name)} PROPERTIES TIMEOUT {timeout} "
-                     f"WORKING_DIRECTORY {bracket(build)})")
+                     f"WORKING_DIRECTORY {bracket(build)} LABELS {bracket(';'.join(labels))})")
 
     program = os.path.join(build, "rapidc_unit_tests")
-    names = unit_cases(program)
-    if not names:  # the test fails, because the program is missing
+    known = unit_cases(program)
+    if not known:  # the test fails, because the program is missing
         add("unit/rapidc_unit_tests is not built; build the target rapidc_tests", [program], 60)
-    for name in names:
-        add("unit/" + name, [program, "-w", "NoTests", case_filter(name)], 240)
+    for name, tags in known:
+        add("unit/" + name, [program, "-w", "NoTests", case_filter(name)], 240, tags)
     runner = os.path.join(source, "tests", "harness", "run_tests.py")
-    for name in sorted(cases.discover(source)):
+    for name in sorted(discover(source)):
         add(name, [sys.executable, runner, "--source", source, "--build", build, "--one", name], 120)
     corpora = os.path.join(source, "tests", "fuzz", "corpus")
     for entry in sorted(os.scandir(corpora), key=lambda entry: entry.name):
@@ -64,12 +89,13 @@ def write_ctest(path, source, build):
             add("fuzz/" + entry.name, [sys.executable, os.path.join(source, "tests", "harness", "replay.py"),
                                        os.path.join(build, "rapidc_replay_" + entry.name), entry.path], 240)
     scripts = os.path.join(source, "scripts")
-    add("layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
+    add("layers/layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
     layers = os.path.join(source, "tests", "layers")
     add("layers/layering_test", [sys.executable, os.path.join(layers, "layering_test.py")], 60)
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
-    add("stdlib", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc", os.path.join(build, "rapidc")],
-        60)
+    add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc",
+                         os.path.join(build, "rapidc")], 60)
+    add("stdlib/error_tests", [sys.executable, os.path.join(scripts, "check_error_tests.py")], 60)
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 
@@ -85,7 +111,8 @@ def main():
     parser.add_argument("--write-ctest", metavar="FILE", help="write a ctest file that registers all tests")
     parser.add_argument("--one", help="run exactly this test")
     parser.add_argument("--update", action="store_true", help="rewrite expected output")
-    parser.add_argument("--modes", default="jit parts aot step", help="modes of running programs")
+    parser.add_argument("--modes", default=os.environ.get("RAPIDC_TEST_MODES", "jit parts aot step"),
+                        help="modes of running programs (default: $RAPIDC_TEST_MODES, else all)")
     parser.add_argument("-j", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--within", metavar="SECONDS", type=float,
                         help="begin no further test after this time; exit status 124 when that leaves some out")
@@ -102,7 +129,7 @@ def main():
     context = cases.Context(source=source, build=build,
                             rapidc=os.path.abspath(options.rapidc or os.path.join(build, "rapidc")),
                             update=options.update, modes=modes)
-    found = cases.discover(source)
+    found = discover(source)
     if options.list:
         print("\n".join(sorted(found)))
         return 0
@@ -133,7 +160,7 @@ def main():
             try:
                 return name, found[name].run(context, scratch)
             except cases.BadTest as problem:
-                return name, [f"the test itself is wrong: {problem}"]
+                return name, [f"the test itself is invalid: {problem}"]
 
     failed = left_out = 0
     with concurrent.futures.ThreadPoolExecutor(options.j) as pool:

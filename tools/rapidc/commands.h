@@ -10,6 +10,7 @@ namespace rapidc {
 void addCheckCommand(rt::CommandLine& line);
 void addBuildCommand(rt::CommandLine& line);
 void addRunCommand(rt::CommandLine& line);
+void addTestCommand(rt::CommandLine& line);
 void addEmitCommand(rt::CommandLine& line);
 void addExplainCommand(rt::CommandLine& line);
 void addBuiltinsCommand(rt::CommandLine& line);
@@ -18,6 +19,8 @@ void addRobotsCommand(rt::CommandLine& line);
 void addFmtCommand(rt::CommandLine& line);
 void addRenameCommand(rt::CommandLine& line);
 void addSetValueCommand(rt::CommandLine& line);
+void addLspCommand(rt::CommandLine& line);
+void addDapCommand(rt::CommandLine& line);
 void addCompileUnitCommand(rt::CommandLine& line);
 
 } // namespace rapidc

@@ -77,6 +77,13 @@ std::string emitMachine(const EmitSettings& settings, const ir::Module& module, 
     return {};
 }
 
+/// Of modules without main everything is shown: nothing would be reachable.
+std::function<bool(const rapid::sema::RoutineSymbol&)> keptRoutines(const Compilation& compilation) {
+    for (const auto& task : compilation.program->tasks)
+        if (task->entryRoutine) return {};
+    return [](const rapid::sema::RoutineSymbol&) { return true; };
+}
+
 int emit(EmitSettings& settings) {
     const bool early = settings.as == "tokens" || settings.as == "tree";
     const auto compilation = checkInputs(settings.inputs);
@@ -108,7 +115,8 @@ int emit(EmitSettings& settings) {
     ir::Module module;
     const bool ok =
         !compilation->sink.hasErrors() &&
-        (settings.as == "symbols" || lowerToIr(*compilation, "program", settings.stepping, module));
+        (settings.as == "symbols" ||
+         lowerToIr(*compilation, "program", settings.stepping, module, SIZE_MAX, keptRoutines(*compilation)));
     printDiagnostics(*compilation);
     if (!ok) return static_cast<int>(rt::ExitStatus::BadProgram);
     if (settings.as == "symbols") return write(settings, symbolsText(*compilation->program));

@@ -2,7 +2,6 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/module_files.h"
 #include "tools/rapidc/text_diff.h"
 
 #include "config/atomic_file.h"
@@ -12,6 +11,7 @@
 #include "frontend/format/formatter.h"
 #include "frontend/format/read_settings.h"
 #include "frontend/syntax/parser.h"
+#include "frontend/workspace/module_files.h"
 #include "runtime/host/run_options.h"
 #include "stdlib/stdlib_text.h"
 
@@ -80,7 +80,7 @@ class Fmt {
                                      settings_.range));
         if (settings_.fromStdin) return runStdin();
         if (settings_.inputs.empty()) return usage("no input: name modules or folders, or use --stdin");
-        const ModuleFiles files = findModuleFiles(settings_.inputs);
+        const rapid::workspace::ModuleFiles files = rapid::workspace::findModuleFiles(settings_.inputs);
         for (const std::string& problem : files.problems)
             fmt::print(stderr, "rapidc fmt: {}\n", problem);
         if (!files.problems.empty()) return kUsage;
@@ -122,7 +122,7 @@ class Fmt {
 
     void formatFile(const std::string& path) {
         std::string problem;
-        const auto source = readModuleFile(path, problem);
+        const auto source = rapid::workspace::readModuleFile(path, problem);
         if (!source) return fail(path, problem);
         const auto edits = formatSource(source);
         if (!edits || edits->empty()) return;

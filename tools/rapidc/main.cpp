@@ -18,6 +18,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addCheckCommand(line);
     rapidc::addBuildCommand(line);
     rapidc::addRunCommand(line);
+    rapidc::addTestCommand(line);
     rapidc::addEmitCommand(line);
     rapidc::addExplainCommand(line);
     rapidc::addBuiltinsCommand(line);
@@ -26,6 +27,8 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addFmtCommand(line);
     rapidc::addRenameCommand(line);
     rapidc::addSetValueCommand(line);
+    rapidc::addLspCommand(line);
+    rapidc::addDapCommand(line);
     rapidc::addCompileUnitCommand(line);
     int status = static_cast<int>(rt::ExitStatus::BadUsage);
     try {

@@ -44,7 +44,7 @@ using Table = std::map<std::pair<std::string, std::string>, Row>;
 /// What a diagnostic reports as missing; an empty kind: nothing.
 struct Finding {
     std::string_view kind, detail;
-    bool isName = false; ///< it stands in the source: all of its places are told
+    bool isName = false; ///< it is in the source: all of its places are reported
 };
 
 Finding findingOf(Code code) {
@@ -69,16 +69,11 @@ Finding findingOf(Code code) {
     }
 }
 
-/// The name in the first quotation marks of a message, of some messages in the second ones.
-std::string quoted(const std::string& message, int which) {
-    size_t at = 0;
-    for (int i = 0;; ++i) {
-        const size_t open = message.find('\'', at);
-        const size_t close = open == std::string::npos ? open : message.find('\'', open + 1);
-        if (close == std::string::npos) return {};
-        if (i == which) return message.substr(open + 1, close - open - 1);
-        at = close + 1;
-    }
+/// The name that a diagnostic is about.
+std::string nameIn(const diag::Diagnostic& d) {
+    const std::string& given = d.args[d.code == Code::ProgramModuleMissing ? 1 : 0];
+    const size_t open = given.find('\''); // "signal 'doGrip'"
+    return open == std::string::npos ? given : given.substr(open + 1, given.rfind('\'') - open - 1);
 }
 
 class MissingReport {
@@ -96,17 +91,12 @@ class MissingReport {
     void fromDiagnostic(const diag::Diagnostic& d) {
         const Finding finding = findingOf(d.code);
         if (finding.kind.empty()) return;
-        const bool second = d.code == Code::ProgramModuleMissing;
-        std::string name = quoted(d.message, second ? 1 : 0);
+        std::string name = nameIn(d);
         if (d.code == Code::ListedModuleMissing || finding.kind == "module")
             name = std::filesystem::path(name).filename().string();
         Row& row = table_[{std::string(finding.kind), name}];
         if (row.detail.empty()) row.detail = finding.detail;
-        if (d.code == Code::MayBeDeclared) {
-            constexpr std::string_view kBefore = "it may be declared in ";
-            const size_t from = d.message.find(kBefore);
-            row.detail = d.message.substr(from == std::string::npos ? 0 : from + kBefore.size());
-        }
+        if (d.code == Code::MayBeDeclared) row.detail = d.args[1] + d.args[2];
         if (finding.isName) names_[sema::foldName(name)].push_back(&row);
     }
 

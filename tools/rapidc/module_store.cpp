@@ -5,7 +5,7 @@
 #include "frontend/diag/diagnostic.h"
 #include "frontend/edit/save_values.h"
 #include "frontend/syntax/parser.h"
-#include "tools/rapidc/module_files.h"
+#include "frontend/workspace/module_files.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace edit = rapid::edit;
 
 rt::StoreResult SourceStore::store(const rt::ModuleText& text) {
     rt::StoreResult result;
-    const auto file = readModuleFile(text.source, result.problem);
+    const auto file = rapid::workspace::readModuleFile(text.source, result.problem);
     if (!file) {
         result.problem = fmt::format("'{}' {}", text.source, result.problem);
         return result;

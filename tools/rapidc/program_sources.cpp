@@ -45,7 +45,7 @@ Json jsonOf(const ProgramSources::Task& task) {
               {"type", task.input.type},
               {"entry", task.input.entry},
               {"missing", task.input.missingModules},
-              {"incomplete", task.input.incomplete},
+              {"incomplete", task.input.incomplete || task.input.bindsLate},
               {"optional", task.input.optional},
               {"modules", task.modules},
               {"files", Json::array()}};

@@ -6,9 +6,9 @@
 #include "tools/rapidc/module_store.h"
 #include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/run_setup.h"
 #include "tools/rapidc/unit_compiler.h"
 
-#include "config/read_file.h"
 #include "config/temporary.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/module_saver.h"
@@ -22,7 +22,6 @@
 #include "stdlib/standard_library.h"
 
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -41,36 +40,6 @@ struct RunSettings {
     bool interactive = false; ///< --step
     bool inParts = false;     ///< compile each routine when it is called, as in large programs
 };
-
-/// A folder may hold the stimulus its program is meant to be run with.
-void findStimulus(RunSettings& settings) {
-    if (!settings.options.stimulus.empty() || settings.inputs.paths.size() != 1) return;
-    const fs::path beside = fs::path(settings.inputs.paths[0]) / "stimulus.csv";
-    std::error_code ignored;
-    if (fs::is_regular_file(beside, ignored)) settings.options.stimulus = beside.string();
-}
-
-/// HOME of a backup for one run: a copy, so that the backup stays as it is. The folder of the copy; empty with a message
-/// when it cannot be made.
-std::string copyHome(const std::string& from, rapid::config::TemporaryFolder& folder, std::string& error) {
-    if (const int problem = folder.make("home"); problem != 0) {
-        error = fmt::format("cannot make a folder for HOME: {}", std::strerror(problem));
-        return {};
-    }
-    std::error_code code;
-    fs::copy(from, folder.path(), fs::copy_options::recursive | fs::copy_options::skip_symlinks, code);
-    if (code) error = fmt::format("cannot copy '{}': {}", from, code.message());
-    return code ? std::string() : folder.path();
-}
-
-/// A pipe can be read once: what it holds is kept. False with a message when it cannot be read.
-bool readStimulus(rt::RunOptions& options, std::string& error) {
-    if (options.stimulus.empty()) return true;
-    const std::string problem = rapid::config::readStream(options.stimulus, options.stimulusText.emplace());
-    if (!problem.empty())
-        error = fmt::format("--stimulus: '{}' cannot be read: {}", options.stimulus, problem);
-    return problem.empty();
-}
 
 /// Only programs made for the stepping profile can be stepped.
 bool stimulusSteps(const rt::RunOptions& options) {
@@ -99,7 +68,8 @@ std::string conflictOf(const RunSettings& settings, const Compilation& compilati
     return outputConflict(compilation, {}, std::move(guard));
 }
 
-int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoader& loader) {
+int execute(RunSettings& settings, const Compilation& compilation, const rt::ProgramDesc& program,
+            rt::ModuleLoader& loader) {
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
@@ -109,7 +79,7 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoa
         controller.saver().setStore(std::make_unique<SourceStore>());
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
-        LineDebugger debugger(controller);
+        LineDebugger debugger(controller, compilation);
         if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
@@ -132,7 +102,7 @@ int run(RunSettings& settings) {
             fmt::print(stderr, "rapidc run: {}\n", problem);
         return static_cast<int>(rt::ExitStatus::BadUsage);
     }
-    findStimulus(settings);
+    findStimulus(settings.options, inputs.paths);
     std::string error = conflictOf(settings, *compilation);
     if (!error.empty() || !readStimulus(settings.options, error)) {
         fmt::print(stderr, "rapidc run: {}\n", error);
@@ -143,6 +113,7 @@ int run(RunSettings& settings) {
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
                         timesStatements(*compilation) ||
                         (!settings.options.state.empty() && !settings.noStepping);
+    compilation->callsByName = settings.interactive;
     ir::Module module;
     codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     if (settings.inParts) options.partsAbove = 0;
@@ -173,7 +144,7 @@ int run(RunSettings& settings) {
     const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
     SourceCompiler compiler(*sources);
     rt::UnitLoader loader(compiler, rt::findNativeAddress);
-    return execute(settings, *program->program(), loader);
+    return execute(settings, *compilation, *program->program(), loader);
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/pipeline.h"
-#include "tools/rapidc/signal_uses.h"
 
 #include "config/atomic_file.h"
 #include "runtime/host/run_options.h"
@@ -26,12 +25,12 @@ int writeSignalFile(SignalsSettings& settings) {
     for (const std::string& problem : compilation->usageErrors)
         fmt::print(stderr, "rapidc signals: {}\n", problem);
     if (!compilation->usageErrors.empty()) return static_cast<int>(rt::ExitStatus::BadUsage);
-    const std::vector<UsedSignal>& signals = compilation->assumedSignals;
-    for (const UsedSignal& signal : signals)
+    const std::vector<rapid::workspace::UsedSignal>& signals = compilation->assumedSignals;
+    for (const rapid::workspace::UsedSignal& signal : signals)
         if (!signal.contradiction.empty())
             fmt::print(stderr, "rapidc signals: signal '{}' is used as {} and as {}: written as {}\n",
                        signal.name, signal.type, signal.contradiction, signal.type);
-    const std::string text = writeSignals(signals);
+    const std::string text = rapid::workspace::writeSignals(signals);
     if (settings.output.empty()) {
         fmt::print("{}", text);
     } else {

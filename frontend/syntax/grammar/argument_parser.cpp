@@ -6,8 +6,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 std::span<Argument*> ExpressionParser::parseArguments(bool procedure) {
     const size_t bottom = args_.size();
     uint32_t height = 0;
@@ -45,7 +43,7 @@ std::span<Argument*> ExpressionParser::parseArguments(bool procedure) {
 Argument* ExpressionParser::parseRequiredArgument(bool procedure) {
     auto* node = make<Argument>(NodeKind::Argument);
     if (kind() == K::PlaceArg) {
-        if (!procedure) report(Code::PlaceholderMisplaced, pos(), {"<ARG>", "<EXP> in a function call"});
+        if (!procedure) report(say::PlaceholderMisplaced, pos(), {"<ARG>", "<EXP> in a function call"});
         node->argKind = ArgKind::Placeholder;
         take();
         return finish(node);
@@ -55,7 +53,7 @@ Argument* ExpressionParser::parseRequiredArgument(bool procedure) {
         take();
     }
     if (ahead().isShownPosition()) {
-        report(Code::UnexpectedToken, pos(),
+        report(say::UnexpectedToken, pos(),
                {"'*'", "a position: manuals and the pendant show '*' for one that is not written out"});
         node->value = errorExpr();
         take();

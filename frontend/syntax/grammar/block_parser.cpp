@@ -18,7 +18,7 @@ Stmt* BlockParser::parseIf() {
     const bool hidden = !ahead().findOnLine(pos(), K::KwThen, found) && foreign().negatesByComment("THEN");
     const bool forgotten = !hidden && ahead().missesCondition();
     if (forgotten)
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a condition after IF"}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "a condition after IF"}),
             {range(opening).begin, range(pos()).begin}, "", false);
     Expr* condition = hidden || forgotten ? expressions().errorExpr() : expressions().parseCondition();
     block().inCondition = outerCondition.saved();
@@ -59,7 +59,7 @@ Stmt* BlockParser::parseCompactIf(TokenIndex opening, Expr* condition) {
         }
         const SourceRange place = startsLine(pos()) && pos() > 0 ? endOf(pos() - 1) : range(pos());
         if (kind() != K::Error)
-            reportAt(Code::MissingBlockWord, place, {describe(pos()), "THEN or an instruction"});
+            reportAt(say::MissingBlockWord, place, {describe(pos()), "THEN or an instruction"});
     }
     if (!kListStops.has(kind())) sync().skipInstruction();
     endPanic();
@@ -83,7 +83,7 @@ bool BlockParser::isBlockByMargin(TokenIndex opening) {
         if (i == first || columnOf(i) != margin || !kOfIf.has(kindAt(i))) return false;
         ++block().missingEndifs;
         const SourceRange place = first == pos() ? endOf(pos() - 1) : range(pos());
-        diag::Diagnostic* diagnostic = reportAt(Code::MissingBlockWord, place, {describe(pos()), "THEN"});
+        diag::Diagnostic* diagnostic = reportAt(say::MissingBlockWord, place, {describe(pos()), "THEN"});
         fix(diagnostic, place, " THEN");
         note(diagnostic, i, fmt::format("this {} belongs to a block, which begins with THEN", describe(i)));
         moveTo(first);
@@ -97,7 +97,7 @@ void BlockParser::parseElseOfCompact(TokenIndex opening) {
     const bool below = startsLine(pos());
     if (block().opening != kNoToken && kindAt(block().opening) == K::KwIf) return; // it may be of that one
     if (below && (!startsLine(opening) || columnOf(pos()) != columnOf(opening))) return;
-    note(report(Code::StrayKeyword, pos(), {describe(pos()), "IF ... THEN"}), opening,
+    note(report(say::StrayKeyword, pos(), {describe(pos()), "IF ... THEN"}), opening,
          "this IF has no THEN, so it ends with one instruction");
     if (below) {
         instructions().parseOrphan();
@@ -130,7 +130,7 @@ Stmt* BlockParser::parseIfBranches(TokenIndex opening, Expr* condition, bool hea
         if (node->hasElse && outer != kNoToken && kindAt(outer) == K::KwIf && startsLine(pos()) &&
             columnOf(pos()) == columnOf(outer) && columnOf(pos()) != columnOf(opening))
             break;
-        if (node->hasElse) report(Code::InstructionAfterElse, pos(), {describe(pos())});
+        if (node->hasElse) report(say::InstructionAfterElse, pos(), {describe(pos())});
         if (kind() == K::KwElse && isSplitElseif()) {
             typos().readAsKeyword(pos(), pos() + 1, K::KwElseif);
             take();
@@ -182,10 +182,10 @@ Stmt* BlockParser::parseFor() {
     const bool counterless =
         kind() == K::NumLiteral && peek() == K::KwTo && !startsLine(pos()); // FOR 1 TO 3 DO
     if (counterless) {
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "the name of the loop variable, and FROM"});
+        report(say::UnexpectedToken, pos(), {describe(pos()), "the name of the loop variable, and FROM"});
         whole = true;
     } else if (kind() == K::KwFrom && peek() != K::KwFrom) {
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "a name"});
+        report(say::UnexpectedToken, pos(), {describe(pos()), "a name"});
     } else if (ahead().beginsInstruction()) {
         node->variable = names().missingName();
         whole = false;
@@ -197,7 +197,7 @@ Stmt* BlockParser::parseFor() {
         whole = sync().expectHeadWord(K::KwFrom, whole);
     node->from = parseHeadExpr(whole);
     if (whole && !panic() && kind() == K::KwDo) {
-        report(Code::MissingBlockWord, pos(), {describe(pos()), "TO and the end value"});
+        report(say::MissingBlockWord, pos(), {describe(pos()), "TO and the end value"});
         node->to = expressions().errorExpr();
     } else {
         whole = sync().expectHeadWord(K::KwTo, whole);
@@ -271,7 +271,7 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
     if (!panic() && !kTestEnds.has(kind()) && !startsLine(pos()) && startsLine(pos() + 1) &&
         kTestEnds.has(peek())) { // TEST n OF
         if (!reports().joinLastEdit(Code::MisspeltKeyword, range(pos()), ""))
-            fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "CASE"}), range(pos()), "");
+            fix(report(say::UnexpectedToken, pos(), {describe(pos()), "CASE"}), range(pos()), "");
         take();
     }
     if (panic()) sync().skipInstruction();
@@ -281,13 +281,13 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
         const size_t errorsBefore = reports().errors();
         lost->body = instructions().parseInstructions(kTestEnds);
         if (!lost->body.empty()) {
-            if (reports().errors() == errorsBefore) report(Code::InstructionOutsideCase, at);
+            if (reports().errors() == errorsBefore) report(say::InstructionOutsideCase, at);
             if (kRoutineEnds.has(kind())) whole = false; // nothing of TEST but its first line
             cases_.push_back(finish(lost));
         }
     }
     while (kind() != K::KwEndtest && kTestEnds.has(kind())) {
-        if (node->hasDefault) report(Code::CaseAfterDefault, pos(), {describe(pos())});
+        if (node->hasDefault) report(say::CaseAfterDefault, pos(), {describe(pos())});
         if (peek() == K::KwElse) recovery().repair(Place::Branch);
         if (kind() != K::KwDefault) {
             cases_.push_back(parseCase());
@@ -322,10 +322,10 @@ TestCase* BlockParser::parseCase() {
             const bool isForColon = kind() == K::Semicolon || kind() == K::KwThen ||
                                     ((kind() == K::Equal || kind() == K::Assign) && startsLine(pos() + 1));
             if (startsLine(pos()) && pos() > 0) {
-                fix(reportAt(Code::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "':'"}),
+                fix(reportAt(say::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "':'"}),
                     endOf(pos() - 1), ":");
             } else if (kind() != K::Error) {
-                diag::Diagnostic* d = report(Code::UnexpectedToken, pos(), {describe(pos()), "',' or ':'"});
+                diag::Diagnostic* d = report(say::UnexpectedToken, pos(), {describe(pos()), "',' or ':'"});
                 if (isForColon) fix(d, range(pos()), ":");
             }
             if (later) {
@@ -346,7 +346,7 @@ TestCase* BlockParser::parseCase() {
 Expr* BlockParser::parseHeadExpr(bool& whole, HeadPart part) {
     if (!whole) return expressions().errorExpr();
     if (ahead().beginsInstruction(part == HeadPart::CaseValue)) {
-        reportAt(Code::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "an expression"});
+        reportAt(say::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "an expression"});
         whole = false;
         return expressions().errorExpr();
     }

@@ -17,7 +17,7 @@ class BlockParser : public ParserPart {
     Stmt* parseIfBranches(TokenIndex opening, Expr* condition, bool headRead);
     Stmt* parseFor();
     Stmt* parseWhile();
-    /// Behind the word, which has been read.
+    /// After the word, which has been read.
     Stmt* parseWhile(TokenIndex opening);
     /// From after DO, or at a DO that has not been read yet.
     Stmt* parseWhileBody(TokenIndex opening, Expr* condition, bool whole);

@@ -16,7 +16,7 @@ DataDecl* DataParser::parseData(ScopeWord scope, TokenIndex first, bool ofModule
                                            : DataKind::Const;
     take();
     if (kStorageWords.has(kind()) && isName(peek()) && !startsLine(pos())) {
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a data type"}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "a data type"}),
             {range(pos()).begin, range(pos() + 1).begin}, "", kind() == kindAt(pos() - 1));
         take();
     }
@@ -32,7 +32,7 @@ DataDecl* DataParser::parseData(ScopeWord scope, TokenIndex first, bool ofModule
 DataDecl* DataParser::parseWordlessData() {
     auto* node = make<DataDecl>(NodeKind::Data);
     diag::Diagnostic* diagnostic =
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "VAR, PERS or CONST before a data type"});
+        report(say::UnexpectedToken, pos(), {describe(pos()), "VAR, PERS or CONST before a data type"});
     node->type = take();
     if (kStorageWords.has(kind())) { // "num VAR x;"
         const SourceRange both{range(pos() - 1).begin, range(pos()).end};
@@ -62,7 +62,7 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
     constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftBrace, K::Equal};
     if (!panic() && node->name != kNoToken && kind() == K::Identifier && !startsLine(pos()) &&
         textOf(pos()) == textOf(node->name)) {
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()) + " twice", "':=' or ';'"}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()) + " twice", "':=' or ';'"}),
             {range(node->name).end, range(pos()).end}, "");
         take();
     }
@@ -75,7 +75,7 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
     if (!panic()) {
         if (valueFollows) {
             diag::Diagnostic* diagnostic =
-                report(Code::UnexpectedToken, pos(), {describe(pos()), "':=' before the value"});
+                report(say::UnexpectedToken, pos(), {describe(pos()), "':=' before the value"});
             fix(diagnostic, {range(pos()).begin, range(pos()).begin}, ":= ");
             node->init = expressions().parseExpression();
         } else if (kind() == K::Equal) {
@@ -89,7 +89,7 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
             if (!node->init) node->init = expressions().parseExpression();
         } else if (node->dataKind == DataKind::Const && !parser().options.declarations &&
                    kind() == K::Semicolon) {
-            report(Code::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
+            report(say::ConstantWithoutValue, node->name, {std::string(textOf(node->name))});
         }
     }
     noteMoreNames(node);
@@ -108,10 +108,10 @@ void DataParser::parseDimensions(DataDecl* node, bool beforeName) {
     if (open == K::LeftParen && peek() == K::RightParen && !beforeName) return signs().dropEmptyParentheses();
     diag::Diagnostic* diagnostic = nullptr;
     if (beforeName) {
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "a name: the dimensions follow it"});
+        report(say::UnexpectedToken, pos(), {describe(pos()), "a name: the dimensions follow it"});
     } else if (otherForm) {
         diagnostic =
-            report(Code::ForeignSpelling, pos(), {std::string(textOf(pos())), "'{' before the dimensions"});
+            report(say::ForeignSpelling, pos(), {std::string(textOf(pos())), "'{' before the dimensions"});
     }
     const K closing = open == K::LeftBrace ? K::RightBrace : ahead().closingOf(pos());
     const TokenIndex opening = take();
@@ -125,7 +125,7 @@ void DataParser::parseDimensions(DataDecl* node, bool beforeName) {
 /// `VAR num x, y;`: each name after the first is read as a declaration of its own.
 void DataParser::noteMoreNames(const DataDecl* node) {
     if (panic() || kind() != K::Comma || !isName(peek()) || startsLine(pos() + 1)) return;
-    report(Code::UnexpectedToken, pos(), {describe(pos()), "';': a declaration has one name"});
+    report(say::UnexpectedToken, pos(), {describe(pos()), "';': a declaration has one name"});
     moreOf_ = node;
 }
 

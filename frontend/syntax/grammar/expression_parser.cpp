@@ -8,8 +8,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 // Precedence of binary operators (manual 1.3.6): 1 OR XOR, 2 AND, 3 relations, 4 + -, 5 * / DIV MOD.
@@ -78,9 +76,9 @@ Expr* ExpressionParser::parseBinary(int minPrecedence) {
         node->op = op.op;
         node->opToken = take();
         if (node->op == BinaryOp::Eq && textOf(node->opToken) == "==")
-            fix(report(Code::ForeignSpelling, node->opToken, {"==", "'='"}), range(node->opToken), "=");
+            fix(report(say::ForeignSpelling, node->opToken, {"==", "'='"}), range(node->opToken), "=");
         if (node->op == BinaryOp::Mul && kind() == K::Star && !panic()) {
-            reportAt(Code::ForeignSpelling, {range(node->opToken).begin, range(pos()).end},
+            reportAt(say::ForeignSpelling, {range(node->opToken).begin, range(pos()).end},
                      {"**", "function Pow"});
             take();
         }
@@ -90,7 +88,7 @@ Expr* ExpressionParser::parseBinary(int minPrecedence) {
         left = finish(node);
         if (height_ > kMaxDepth) return tooDeepExpr();
         if (op.precedence == kRelationLevel && operatorOf(kind()).precedence == kRelationLevel)
-            report(Code::ChainedRelation, pos(), {std::string(textOf(pos()))});
+            report(say::ChainedRelation, pos(), {std::string(textOf(pos()))});
     }
 }
 
@@ -101,7 +99,7 @@ Expr* ExpressionParser::parseNot(int minPrecedence) {
     diag::Diagnostic* misplaced = nullptr;
     size_t countBefore = 0;
     if (minPrecedence > kRelationLevel) {
-        misplaced = report(Code::NotInOperand, pos());
+        misplaced = report(say::NotInOperand, pos());
         countBefore = reports().count();
     }
     auto* node = makeExpr<UnaryExpr>(NodeKind::Unary);
@@ -122,7 +120,7 @@ Expr* ExpressionParser::parseSigned(int minPrecedence) {
     size_t countBefore = 0;
     if (minPrecedence > kSumLevel) {
         if (pos() == 0 || !isMarked(Mark::SignAfterOperator, pos() - 1))
-            misplaced = report(Code::SignAfterOperator, pos(), {std::string(textOf(pos()))});
+            misplaced = report(say::SignAfterOperator, pos(), {std::string(textOf(pos()))});
         mark(Mark::SignAfterOperator);
         countBefore = reports().count();
     }
@@ -186,7 +184,7 @@ Expr* ExpressionParser::parsePrimary() {
         return parseVariableOrCall(true);
     }
     if (ahead().atReservedName()) {
-        report(Code::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
+        report(say::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
         auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
         take();
         return finish(node);
@@ -209,7 +207,7 @@ Expr* ExpressionParser::parseNumber() {
     if (!number.valid)
         reportBadNumber(token);
     else if (!number.inRange)
-        report(Code::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
+        report(say::NumberTooLarge, token, {std::string(textOf(token).substr(0, 40))});
     node->value = number.value;
     return finish(node);
 }
@@ -235,7 +233,7 @@ void ExpressionParser::reportBadNumber(TokenIndex token) {
     } else {
         expected = "a number without '" + text.substr(letter) + "' after it";
     }
-    report(Code::BadNumber, token, {text, expected});
+    report(say::BadNumber, token, {text, expected});
     mark(Mark::BehindBadNumber);
 }
 
@@ -295,12 +293,12 @@ Expr* ExpressionParser::parsePostfix(Expr* base) {
         if ((kind() != K::LeftBrace && kind() != K::Dot && !bracket) || panic() || block().isBlockBrace())
             return base;
         if (base->kind == NodeKind::Call && kind() == K::Dot && startsLine(pos() + 1)) {
-            fix(report(Code::UnexpectedToken, pos(), {"'.'", "';'"}), range(pos()), ";");
+            fix(report(say::UnexpectedToken, pos(), {"'.'", "';'"}), range(pos()), ";");
             readAs(pos(), K::Semicolon);
             return base;
         }
         if (base->kind == NodeKind::Call && !countBefore) {
-            report(Code::PartOfCallResult, pos(), {std::string(textOf(pos()))});
+            report(say::PartOfCallResult, pos(), {std::string(textOf(pos()))});
             countBefore = true;
         }
         const uint32_t baseHeight = height_;
@@ -318,7 +316,7 @@ Expr* ExpressionParser::parsePostfix(Expr* base) {
             if (!nest) return tooDeepExpr();
             partIndexed = base->kind != NodeKind::Name;
             if (partIndexed && !countBefore) {
-                report(Code::IndexOnPart, pos());
+                report(say::IndexOnPart, pos());
                 countBefore = true;
             }
             base = parseIndex(base);
@@ -350,7 +348,7 @@ Expr* ExpressionParser::parseIndex(Expr* base) {
     const bool otherForm = kind() != K::LeftBrace;
     diag::Diagnostic* diagnostic = nullptr;
     if (otherForm)
-        diagnostic = report(Code::ForeignSpelling, pos(),
+        diagnostic = report(say::ForeignSpelling, pos(),
                             {std::string(textOf(pos())), closing == K::RightParen && kind() == K::LeftBracket
                                                              ? "'(' before the arguments of a function"
                                                              : "'{' before an index"});
@@ -361,7 +359,7 @@ Expr* ExpressionParser::parseIndex(Expr* base) {
     return finish(node);
 }
 
-/// Behind "name[...]": an array was indexed, or a function was called.
+/// After "name[...]": an array was indexed, or a function was called.
 void ExpressionParser::fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr& node, TokenIndex opening) {
     const SourceRange first = range(opening), last = range(pos() - 1);
     const bool called = kindAt(opening) == K::LeftBracket && kindAt(pos() - 1) == K::RightParen;
@@ -463,7 +461,7 @@ Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
     auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
     node->first = opening;
     diag::Diagnostic* diagnostic =
-        report(Code::ForeignSpelling, opening,
+        report(say::ForeignSpelling, opening,
                {std::string(textOf(opening)), "'[' around the values of a record or an array"});
     const size_t countBefore = reports().count();
     take();
@@ -491,7 +489,7 @@ Expr* ExpressionParser::parseCondition() {
 /// At ":=" where only "=" is possible: reads the expression at `start` once more, with the sign that was meant.
 Expr* ExpressionParser::parseMeantEqual(TokenIndex start, size_t errorsBefore) {
     const bool once = reports().errors() == errorsBefore; // else its mistakes would be reported again
-    fix(report(Code::AssignmentInCondition, pos()), range(pos()), "=");
+    fix(report(say::AssignmentInCondition, pos()), range(pos()), "=");
     if (once) {
         readAs(pos(), K::Equal);
         moveTo(start);

@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// First letters of END, ELSE, ERROR, CASE, DEFAULT, UNDO, BACKWARD, and of words of other languages for them.
@@ -226,11 +224,11 @@ Stmt* InstructionParser::errorStmt(TokenIndex first) {
 Stmt* InstructionParser::parseOrphan() {
     const TokenIndex first = pos();
     const K word = kind();
-    if (word == K::KwThen && !isMarked(Mark::BrokenHead)) report(Code::StrayKeyword, pos(), {"THEN", "IF"});
+    if (word == K::KwThen && !isMarked(Mark::BrokenHead)) report(say::StrayKeyword, pos(), {"THEN", "IF"});
     if (word == K::KwDo && !isMarked(Mark::BrokenHead) && startsLine(pos()) && foreign().startsForeignBlock())
         return errorStmt(first);
     if (word == K::KwDo && !isMarked(Mark::BrokenHead))
-        report(Code::StrayKeyword, pos(), {"DO", "FOR or WHILE"});
+        report(say::StrayKeyword, pos(), {"DO", "FOR or WHILE"});
     TokenSet ends = {K::KwEndfor, K::KwEndwhile};
     if (word == K::KwCase || word == K::KwDefault || word == K::PlaceCse) ends = kTestEnds;
     if (kIfEnds.has(word) || word == K::KwThen) ends = kIfEnds;
@@ -273,7 +271,7 @@ Stmt* InstructionParser::parseLateDeclaration() {
     auto* node = make<DeclStmt>(NodeKind::DeclStmt);
     if (accept(K::PlaceDdn)) {
         node->kind = NodeKind::PlaceholderStmt;
-        report(Code::PlaceholderMisplaced, pos() - 1, {"<DDN>", "<SMT> after the first instruction"});
+        report(say::PlaceholderMisplaced, pos() - 1, {"<DDN>", "<SMT> after the first instruction"});
         return finish(node);
     }
     const TokenIndex first = pos();
@@ -306,7 +304,7 @@ Stmt* InstructionParser::parseLateDeclaration() {
     if (!countBefore && reports().errors() == errorsBefore &&
         node->decl->dataKind != DataKind::Pers) { // PERS is none of a routine
         const TokenIndex name = node->decl->name;
-        report(Code::DeclarationAfterInstruction, name == kNoToken ? first : name,
+        report(say::DeclarationAfterInstruction, name == kNoToken ? first : name,
                {std::string(textOf(name))});
     }
     return finish(node);

@@ -57,7 +57,7 @@ void LexicalMistakes::report(const LexResult& lexed, Reports& reports) {
             if (error.code == Code::BadStringEscape) fixEscapes(d);
             if (error.fix) d.fix(error.range, *error.fix);
         } else if (errors == kMaxErrorsPerFile + 1) {
-            sink_.report(Code::TooManyErrors, in_.tree().source, error.range, {"errors"});
+            sink_.report(say::TooManyErrors, in_.tree().source, error.range, {"errors"});
         }
     }
 }
@@ -86,7 +86,7 @@ bool LexicalMistakes::covers(SourceRange range) {
 
 void LexicalMistakes::reportBrokenStrings() {
     for (const BrokenString& string : brokenStrings_) {
-        diag::Diagnostic& d = sink_.report(Code::UnterminatedString, in_.tree().source, string.range);
+        diag::Diagnostic& d = sink_.report(say::UnterminatedString, in_.tree().source, string.range);
         if (string.doubtful.end != 0)
             d.notes.push_back(
                 {in_.tree().source, string.doubtful,

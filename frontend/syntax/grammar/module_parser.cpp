@@ -8,8 +8,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 uint8_t attributeOf(TokenKind kind) {
@@ -34,9 +32,9 @@ void ModuleParser::parseFile(const LexResult& lexed) {
     } else if (!lexed.hasModule) { // not RAPID: one report, whatever its characters are
         const TokenIndex first = kind() == K::FileHeader ? 1 : 0;
         if (kindAt(first) == K::EndOfFile) {
-            report(Code::NoModule, first);
+            report(say::NoModule, first);
         } else {
-            report(Code::TextOutsideModule, first, {describe(first)});
+            report(say::TextOutsideModule, first, {describe(first)});
         }
         return;
     } else {
@@ -99,7 +97,7 @@ void ModuleParser::warnOutsideComment(TokenIndex next) {
     if (comment == std::string_view::npos) return;
     outsideCommentShown_ = true;
     const size_t end = std::min<size_t>(text.find_first_of("\r\n", comment), text.size());
-    reportAt(Code::CommentOutsideModule, {static_cast<uint32_t>(comment), static_cast<uint32_t>(end)});
+    reportAt(say::CommentOutsideModule, {static_cast<uint32_t>(comment), static_cast<uint32_t>(end)});
 }
 
 Expr* ModuleParser::parseWholeExpression(const LexResult& lexed) {
@@ -117,7 +115,7 @@ void ModuleParser::skipOutsideModule() {
         take();
         return;
     }
-    if (kind() != K::Error) report(Code::TextOutsideModule, pos(), {describe(pos())});
+    if (kind() != K::Error) report(say::TextOutsideModule, pos(), {describe(pos())});
     do
         take();
     while (kind() != K::EndOfFile && !(kind() == K::KwModule && startsLine(pos())));
@@ -125,7 +123,7 @@ void ModuleParser::skipOutsideModule() {
 
 /// `ENDPROC;` and the like: harmless, but no declaration.
 void ModuleParser::skipStraySemicolons() {
-    diag::Diagnostic* diagnostic = report(Code::StraySemicolon, pos(), {describe(pos() - 1)});
+    diag::Diagnostic* diagnostic = report(say::StraySemicolon, pos(), {describe(pos() - 1)});
     const uint32_t from = range(pos()).begin;
     while (accept(K::Semicolon)) {
     }
@@ -151,7 +149,7 @@ void ModuleParser::parseModule() {
     if (!accept(K::KwEndmodule)) {
         ++openModules_;
         if (reports().isNewsHere())
-            note(report(Code::MissingBlockEnd, pos(), {describe(pos()), "ENDMODULE"}), opening,
+            note(report(say::MissingBlockEnd, pos(), {describe(pos()), "ENDMODULE"}), opening,
                  "MODULE begins here");
     }
     tree().modules.push_back(finish(node));
@@ -167,7 +165,7 @@ void ModuleParser::parseModuleAttributes(ModuleDecl* module) {
             addAttribute(module, pos(), seen);
             take();
         } else if (kind() == K::Identifier || isKeyword(kind())) {
-            report(Code::UnknownModuleAttribute, pos(), {std::string(textOf(pos()))});
+            report(say::UnknownModuleAttribute, pos(), {std::string(textOf(pos()))});
             take();
         } else {
             unexpected("a module attribute");
@@ -185,14 +183,14 @@ void ModuleParser::addAttribute(ModuleDecl* module, TokenIndex token, std::vecto
     constexpr uint8_t kBesideNoview = kAttrSysmodule | kAttrNoview;
     const uint8_t all = module->attributes | attribute;
     if (module->attributes & attribute) {
-        fix(report(Code::DuplicateModuleAttribute, token, {describe(token)}),
+        fix(report(say::DuplicateModuleAttribute, token, {describe(token)}),
             {range(token - 2).end, range(token).end}, "");
     } else if ((all & kAttrNoview) && (all & ~kBesideNoview)) {
         const TokenIndex other = attribute == kAttrNoview ? seen.back() : token;
         if (!(module->attributes & kAttrNoview) || !(module->attributes & ~kBesideNoview))
-            report(Code::ModuleAttributeConflict, token, {describe(other)});
+            report(say::ModuleAttributeConflict, token, {describe(other)});
     } else if (attribute < module->attributes) {
-        lastOrder_ = report(Code::ModuleAttributeOrder, token, {describe(token), describe(seen.back())});
+        lastOrder_ = report(say::ModuleAttributeOrder, token, {describe(token), describe(seen.back())});
     }
     module->attributes = all;
     seen.push_back(token);
@@ -243,7 +241,7 @@ bool ModuleParser::retagLastEnd() {
     }
     if (!kEndWords.has(kind())) return false;
     if (!quietOutside_)
-        fix(report(Code::MissingBlockEnd, pos(), {describe(pos()), "ENDMODULE"}), range(pos()), "ENDMODULE");
+        fix(report(say::MissingBlockEnd, pos(), {describe(pos()), "ENDMODULE"}), range(pos()), "ENDMODULE");
     readAs(pos(), K::KwEndmodule);
     return true;
 }
@@ -284,9 +282,9 @@ Decl* ModuleParser::parseTaskDeclaration() {
     const TokenIndex first = pos();
     const SourceRange word{range(pos()).begin, range(pos() + 1).begin};
     if (peek() == K::KwLocal) {
-        report(Code::ScopeConflict, pos());
+        report(say::ScopeConflict, pos());
     } else {
-        fix(report(Code::TaskDirective, pos(), {describe(pos() + 1)}), word, "");
+        fix(report(say::TaskDirective, pos(), {describe(pos() + 1)}), word, "");
     }
     take();
     if (Decl* decl = parseDeclaration()) return decl;
@@ -309,7 +307,7 @@ Decl* ModuleParser::parseScopedDeclaration() {
     default: break;
     }
     if (isTaskDirective(pos())) {
-        report(Code::ScopeConflict, pos());
+        report(say::ScopeConflict, pos());
         take();
         return data().parseData(ScopeWord::Task, first, true);
     }
@@ -327,11 +325,11 @@ Decl* ModuleParser::parseUnknownDeclaration() {
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (kind() != K::Error && !quietOutside_) {
         if (kEnds.has(kind())) {
-            report(Code::StrayKeyword, pos(), {describe(pos()), std::string(tokenText(kind()).substr(3))});
+            report(say::StrayKeyword, pos(), {describe(pos()), std::string(tokenText(kind()).substr(3))});
         } else if (kind() == K::KwEndrecord) {
-            report(Code::StrayKeyword, pos(), {describe(pos()), "RECORD"});
+            report(say::StrayKeyword, pos(), {describe(pos()), "RECORD"});
         } else {
-            diag::Diagnostic* diagnostic = report(Code::InstructionOutsideRoutine, pos(), {describe(pos())});
+            diag::Diagnostic* diagnostic = report(say::InstructionOutsideRoutine, pos(), {describe(pos())});
             if (kind() == K::Semicolon) fix(diagnostic, range(pos()), "");
         }
     }

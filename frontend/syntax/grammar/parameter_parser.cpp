@@ -6,8 +6,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 void ParameterParser::parseParameters(RoutineDecl* routine) {
     const size_t bottom = params_.size();
     if (!panic()) {
@@ -40,16 +38,16 @@ void ParameterParser::parseParameters(RoutineDecl* routine) {
 void ParameterParser::parseParametersWithoutParen(RoutineDecl* routine) {
     if (startsLine(pos()) || kind() == K::Semicolon) {
         diag::Diagnostic* diagnostic =
-            reportAt(Code::MissingParameterList, endOf(pos() - 1), {std::string(textOf(routine->name))});
+            reportAt(say::MissingParameterList, endOf(pos() - 1), {std::string(textOf(routine->name))});
         fix(diagnostic, kind() == K::Semicolon ? range(pos()) : endOf(pos() - 1), "()");
         accept(K::Semicolon);
     } else if (kind() == K::RightParen && peek() == K::LeftParen && startsLine(pos() + 2)) {
-        fix(report(Code::UnexpectedToken, pos(), {"')('", "'()'"}),
-            {range(pos()).begin, range(pos() + 1).end}, "()");
+        fix(report(say::UnexpectedToken, pos(), {"')('", "'()'"}), {range(pos()).begin, range(pos() + 1).end},
+            "()");
         take();
         take();
     } else if (ahead().lacksParenthesis(pos() - 1)) {
-        report(Code::UnexpectedToken, pos() - 1,
+        report(say::UnexpectedToken, pos() - 1,
                {describe(pos() - 1), "'(' between the name and the data type of the first parameter"});
         routine->broken = true;
         typeInName_ = true;
@@ -73,11 +71,11 @@ void ParameterParser::parseParameterGroup(uint32_t group) {
     bool optional = accept(K::Backslash) || marked;
     params_.push_back(parseParameter(optional, group));
     while (!panic() && kind() == K::Bar) {
-        if (!optional && !parser().options.declarations) report(Code::RequiredAlternative, pos());
+        if (!optional && !parser().options.declarations) report(say::RequiredAlternative, pos());
         take();
         if (kind() == K::Backslash) {
             if (!parser().options.declarations)
-                fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a parameter after '|'"}),
+                fix(report(say::UnexpectedToken, pos(), {describe(pos()), "a parameter after '|'"}),
                     range(pos()), "");
             optional = true;
             take();
@@ -115,7 +113,7 @@ bool ParameterParser::parseAccessMode(ParamDecl* node) {
         return false;
     }
     if (node->mode != ParamMode::In && isContextual(pos(), "SWITCH") && isName(peek())) {
-        fix(report(Code::UnexpectedToken, pos() - 1,
+        fix(report(say::UnexpectedToken, pos() - 1,
                    {describe(pos() - 1), "'switch', which takes no access mode"}),
             {range(pos() - 1).begin, range(pos()).begin}, "");
         node->mode = ParamMode::In;
@@ -123,7 +121,7 @@ bool ParameterParser::parseAccessMode(ParamDecl* node) {
     }
     if (node->mode != ParamMode::In && kAccessModes.has(kind()) && isName(peek()) &&
         isName(peek(2))) { // "VAR PERS num x"
-        report(Code::UnexpectedToken, pos(), {describe(pos()), "a data type"});
+        report(say::UnexpectedToken, pos(), {describe(pos()), "a data type"});
         take();
     }
     return true;
@@ -135,7 +133,7 @@ ParamDecl* ParameterParser::parseParameter(bool optional, uint32_t group) {
     node->group = group;
     if (kind() == K::PlacePar || kind() == K::PlaceAlt) {
         if ((kind() == K::PlaceAlt) != optional)
-            report(Code::PlaceholderMisplaced, pos(), {describe(pos()), optional ? "<ALT>" : "<PAR>"});
+            report(say::PlaceholderMisplaced, pos(), {describe(pos()), optional ? "<ALT>" : "<PAR>"});
         node->placeholder = true;
         take();
         return finish(node);
@@ -163,7 +161,7 @@ ParamDecl* ParameterParser::parseParameter(bool optional, uint32_t group) {
     names().checkNameLength(node->name);
     if (!panic() && (kind() == K::LeftBrace || kind() == K::LeftBracket)) parseDimensions(node);
     if (!panic() && (kind() == K::Assign || kind() == K::Equal)) {
-        report(Code::ParameterValue, pos(), {std::string(textOf(node->name))});
+        report(say::ParameterValue, pos(), {std::string(textOf(node->name))});
         take();
         expressions().parseExpression();
     }
@@ -173,7 +171,7 @@ ParamDecl* ParameterParser::parseParameter(bool optional, uint32_t group) {
 /// `num VAR x`
 void ParameterParser::dropMisplacedMode(ParamDecl* param) {
     if (panic() || !kAccessModes.has(kind()) || !isName(peek())) return;
-    if (diag::Diagnostic* diagnostic = report(Code::ModeAfterType, pos(), {describe(pos())})) {
+    if (diag::Diagnostic* diagnostic = report(say::ModeAfterType, pos(), {describe(pos())})) {
         const uint32_t begin = range(param->first).begin;
         const SourceRange word{range(pos()).begin, range(pos() + 1).begin};
         diagnostic->fixes.push_back({"write it before the data type",
@@ -189,7 +187,7 @@ void ParameterParser::dropMisplacedMode(ParamDecl* param) {
 void ParameterParser::parseDimensions(ParamDecl* param) {
     const bool otherForm = kind() == K::LeftBracket;
     const K closing = otherForm ? K::RightBracket : K::RightBrace;
-    if (otherForm) report(Code::ForeignSpelling, pos(), {"[", "'{*}' after the name of an array"});
+    if (otherForm) report(say::ForeignSpelling, pos(), {"[", "'{*}' after the name of an array"});
     const TokenIndex opening = take();
     if (otherForm && accept(closing)) {
         param->rank = 1;
@@ -200,7 +198,7 @@ void ParameterParser::parseDimensions(ParamDecl* param) {
     if (accept(K::PlaceDim)) {
         param->rank = kPlaceholderRank;
     } else if (kind() == K::RightBrace) {
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "'*'"}), endOf(opening), "*");
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "'*'"}), endOf(opening), "*");
         param->rank = 1;
     } else {
         do {
@@ -208,7 +206,7 @@ void ParameterParser::parseDimensions(ParamDecl* param) {
             if (isSize && otherForm) {
                 take();
             } else if (isSize && (peek() == K::Comma || peek() == K::RightBrace)) {
-                fix(report(Code::DimensionWithoutStar, pos()), range(pos()), "*");
+                fix(report(say::DimensionWithoutStar, pos()), range(pos()), "*");
                 take();
             } else if (!accept(K::Star)) {
                 unexpected("'*'");

@@ -57,13 +57,18 @@ class ParserPart {
     }
 
     // ---- Reports
-    diag::Diagnostic* reportAt(diag::Code code, SourceRange range,
-                               std::initializer_list<std::string> args = {}) {
-        return reports_.reportAt(code, range, args);
+    template <size_t N>
+    diag::Diagnostic* reportAt(diag::Message<N> message, SourceRange range, diag::MessageArgs<N> args) {
+        return reports_.reportAt(message, range, args);
     }
-    diag::Diagnostic* report(diag::Code code, TokenIndex at, std::initializer_list<std::string> args = {}) {
-        return reports_.report(code, at, args);
+    diag::Diagnostic* reportAt(diag::Message<0> message, SourceRange range) {
+        return reports_.reportAt(message, range);
     }
+    template <size_t N>
+    diag::Diagnostic* report(diag::Message<N> message, TokenIndex at, diag::MessageArgs<N> args) {
+        return reports_.report(message, at, args);
+    }
+    diag::Diagnostic* report(diag::Message<0> message, TokenIndex at) { return reports_.report(message, at); }
     void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message) {
         reports_.note(diagnostic, at, std::move(message));
     }

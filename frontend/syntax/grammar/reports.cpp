@@ -32,7 +32,7 @@ bool isTornPlace(Code code) {
 
 } // namespace
 
-diag::Diagnostic* Reports::reportAt(Code code, SourceRange range, std::span<const std::string> args) {
+diag::Diagnostic* Reports::reportCode(Code code, SourceRange range, std::span<const std::string> args) {
     if (panic_) return nullptr;
     if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
     if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;
@@ -45,7 +45,7 @@ diag::Diagnostic* Reports::reportAt(Code code, SourceRange range, std::span<cons
         return last_;
     }
     if (errors_ == kMaxErrorsPerFile + 1)
-        sink_.report(Code::TooManyErrors, in_.tree().source, range, {"errors"});
+        sink_.report(say::TooManyErrors, in_.tree().source, range, {"errors"});
     return nullptr;
 }
 
@@ -68,11 +68,10 @@ bool Reports::followsFromLast(Code code, SourceRange range) const {
     return true;
 }
 
-diag::Diagnostic* Reports::reportAfterExpr(Code code, std::initializer_list<std::string> args) {
-    if (in_.kind() != TokenKind::Question) return report(code, in_.pos(), args);
+diag::Diagnostic* Reports::reportAfterExpr(diag::Message<2> message, diag::MessageArgs<2> args) {
+    if (in_.kind() != TokenKind::Question) return report(message, in_.pos(), args);
     if (!panic_) ++unreadable_;
-    return report(Code::ForeignSpelling, in_.pos(),
-                  {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
+    return report(say::ForeignSpelling, in_.pos(), {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
 }
 
 /// Whether nothing has been reported since `last_`.
@@ -119,7 +118,7 @@ void Reports::fixParentheses(diag::Diagnostic* diagnostic, const Node& operand) 
 
 void Reports::unexpected(std::string_view expected) {
     if (in_.kind() != TokenKind::Error)
-        report(Code::UnexpectedToken, in_.pos(), {in_.describe(in_.pos()), std::string(expected)});
+        report(say::UnexpectedToken, in_.pos(), {in_.describe(in_.pos()), std::string(expected)});
     endReported_ |= in_.kind() == TokenKind::EndOfFile;
     panic_ = true;
 }
@@ -127,7 +126,7 @@ void Reports::unexpected(std::string_view expected) {
 void Reports::missing(std::string_view expected) {
     if (!in_.startsLine(in_.pos()) || in_.pos() == 0 || in_.kind() == TokenKind::Error)
         return unexpected(expected);
-    reportAt(Code::UnexpectedToken, in_.endOf(in_.pos() - 1),
+    reportAt(say::UnexpectedToken, in_.endOf(in_.pos() - 1),
              {in_.describe(in_.pos()), std::string(expected)});
     endReported_ |= in_.kind() == TokenKind::EndOfFile;
     panic_ = true;
@@ -138,14 +137,14 @@ bool Reports::isNewsHere() {
 }
 
 void Reports::reportTooDeep() {
-    report(Code::NestingTooDeep, in_.pos(), {std::to_string(kMaxDepth)});
+    report(say::NestingTooDeep, in_.pos(), {std::to_string(kMaxDepth)});
     panic_ = true;
 }
 
 diag::Diagnostic* Reports::reportWord(SourceRange range, const std::string& whole, bool certain) {
     if (++errors_ > kMaxErrorsPerFile) return nullptr;
     const auto shown = std::string(in_.sourceText().substr(range.begin, range.end - range.begin));
-    diag::Diagnostic& d = sink_.report(Code::UnexpectedToken, in_.tree().source, range,
+    diag::Diagnostic& d = sink_.report(say::UnexpectedToken, in_.tree().source, range,
                                        {"'" + shown + "'", "'" + whole + "': a name is one word"});
     d.fix(range, whole, certain);
     lastUnread_ = range.begin;

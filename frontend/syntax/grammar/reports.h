@@ -10,6 +10,7 @@
 namespace rapid::syntax {
 
 class TornWords;
+namespace say = diag::say;
 
 /// Why a token was reported, or is not to be reported when the parser comes to it. The last token of each is remembered.
 enum class Mark : uint8_t {
@@ -40,16 +41,24 @@ class Reports {
         : in_(in), sink_(sink), lexical_(lexical), torn_(torn) {}
 
     /// Null when it follows from what was reported. The pointer is good until the next report.
-    diag::Diagnostic* reportAt(diag::Code code, SourceRange range, std::span<const std::string> args);
-    diag::Diagnostic* reportAt(diag::Code code, SourceRange range,
-                               std::initializer_list<std::string> args = {}) {
-        return reportAt(code, range, std::span<const std::string>(args.begin(), args.size()));
+    template <size_t N>
+    diag::Diagnostic* reportAt(diag::Message<N> message, SourceRange range, diag::MessageArgs<N> args) {
+        return reportCode(message.code, range, args);
     }
-    diag::Diagnostic* report(diag::Code code, TokenIndex at, std::initializer_list<std::string> args = {}) {
-        return reportAt(code, in_.range(at), args);
+    diag::Diagnostic* reportAt(diag::Message<0> message, SourceRange range) {
+        return reportCode(message.code, range, {});
     }
+    template <size_t N>
+    diag::Diagnostic* report(diag::Message<N> message, TokenIndex at, diag::MessageArgs<N> args) {
+        return reportCode(message.code, in_.range(at), args);
+    }
+    diag::Diagnostic* report(diag::Message<0> message, TokenIndex at) {
+        return reportCode(message.code, in_.range(at), {});
+    }
+    /// The proposal of a recovery strategy: its code and arguments were checked when it was made.
+    diag::Diagnostic* reportCode(diag::Code code, SourceRange range, std::span<const std::string> args);
     /// "found X, expected Y" where an expression has ended.
-    diag::Diagnostic* reportAfterExpr(diag::Code code, std::initializer_list<std::string> args);
+    diag::Diagnostic* reportAfterExpr(diag::Message<2> message, diag::MessageArgs<2> args);
     /// "found 'p Pick', expected 'pPick'"; the checker then says nothing of that line.
     diag::Diagnostic* reportWord(SourceRange range, const std::string& whole, bool certain);
     /// Nesting deeper than kMaxDepth, and panic.
@@ -60,7 +69,7 @@ class Reports {
     void missing(std::string_view expected);
 
     void note(diag::Diagnostic* diagnostic, TokenIndex at, std::string message);
-    /// The edit that mends what was reported; nothing when it was not shown.
+    /// The edit that corrects the reported mistake; nothing when it was not shown.
     void fix(diag::Diagnostic* diagnostic, SourceRange place, std::string replacement, bool certain = true);
     /// `(operand)`
     void fixParentheses(diag::Diagnostic* diagnostic, const Node& operand);

@@ -6,8 +6,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 constexpr TokenSet kHandlers = {TokenKind::KwBackward, TokenKind::KwError, TokenKind::KwUndo};
@@ -26,7 +24,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
     const size_t errorsBefore = reports().errors();
     if (kind() == K::KwLocal && isName(peek()) && !startsLine(pos())) { // PROC LOCAL name()
         const SourceRange both{range(opening).begin, range(pos()).end};
-        fix(report(Code::UnexpectedToken, pos(), {"LOCAL", "a name: LOCAL is before " + describe(opening)}),
+        fix(report(say::UnexpectedToken, pos(), {"LOCAL", "a name: LOCAL is before " + describe(opening)}),
             both, (local ? "" : "LOCAL ") + describe(opening));
         node->local = true;
         take();
@@ -35,7 +33,7 @@ Decl* RoutineParser::parseRoutine(bool local, TokenIndex first) {
     block().routineEnd = wordsOf(node->routineKind).end;
     parseRoutineHeader(node);
     if (!panic() && kind() == K::RightParen && !startsLine(pos())) { // PROC name())
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "an instruction or a declaration"}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "an instruction or a declaration"}),
             range(pos()), "");
         take();
     }
@@ -77,7 +75,7 @@ bool RoutineParser::isWrittenTwice(const RoutineDecl& routine, TokenIndex openin
     for (TokenIndex i = opening; i < end; ++i)
         if (textOf(i) != textOf(again + i - opening)) return false;
     const SourceRange both{range(end - 1).end, range(again + end - 1 - opening).end};
-    fix(report(Code::UnexpectedToken, again,
+    fix(report(say::UnexpectedToken, again,
                {"the first line of '" + std::string(textOf(routine.name)) + "' a second time",
                 "its instructions"}),
         both, "");
@@ -97,7 +95,7 @@ void RoutineParser::correctRoutineWord(RoutineDecl* routine, TokenIndex word) {
         return;
     routine->routineKind = shape;
     const std::string expected(words.name);
-    diag::Diagnostic* diagnostic = report(Code::MisspeltKeyword, word, {describe(word), expected});
+    diag::Diagnostic* diagnostic = report(say::MisspeltKeyword, word, {describe(word), expected});
     fix(diagnostic, range(word), expected, false);
     note(diagnostic, pos(), "it ends with " + std::string(tokenText(words.end)));
 }
@@ -114,7 +112,7 @@ void RoutineParser::parseRoutineHeader(RoutineDecl* routine) {
         if (kind() == K::LeftParen && !panic()) {
             const TokenIndex opening = pos();
             diag::Diagnostic* diagnostic =
-                report(Code::TrapParameters, pos(), {std::string(textOf(routine->name))});
+                report(say::TrapParameters, pos(), {std::string(textOf(routine->name))});
             if (peek() == K::RightParen) fix(diagnostic, {range(opening).begin, range(opening + 1).end}, "");
             parameters().parseParameters(routine);
             routine->params = {};
@@ -136,11 +134,11 @@ bool RoutineParser::parseReturnType(RoutineDecl* routine) {
         if (!panic() && kind() == K::LeftParen && !startsLine(pos())) { // FUNC name(...)
             routine->name = routine->returnType;
             routine->returnType = kNoToken;
-            report(Code::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
+            report(say::MissingReturnType, routine->name, {std::string(textOf(routine->name))});
             return true;
         }
         if (!panic() && kind() == K::LeftBrace) { // FUNC num{3} name()
-            report(Code::ArrayReturn, pos());
+            report(say::ArrayReturn, pos());
             routine->returnType = kNoToken;
             while (kind() != K::RightBrace && kind() != K::EndOfFile && !startsLine(pos()))
                 take();
@@ -150,7 +148,7 @@ bool RoutineParser::parseReturnType(RoutineDecl* routine) {
                !ahead().lacksParenthesis(pos()) &&
                (routine->routineKind == RoutineKind::Proc ? !isName(peek(2)) || startsLine(pos() + 2)
                                                           : isBasicType(textOf(pos())))) { // PROC num name()
-        fix(report(Code::ReturnTypeUnexpected, pos(),
+        fix(report(say::ReturnTypeUnexpected, pos(),
                    {std::string(textOf(pos())), std::string(wordsOf(routine->routineKind).name)}),
             {range(pos()).begin, range(pos() + 1).begin}, "");
         take();
@@ -158,7 +156,7 @@ bool RoutineParser::parseReturnType(RoutineDecl* routine) {
     return false;
 }
 
-/// "PROC Pick Part()": the two words are no data type and a name.
+/// "PROC Pick Part()": the two words are not a data type and a name.
 bool RoutineParser::isTornRoutineName() {
     constexpr std::string_view kData = "data";
     const std::string_view word = textOf(pos());
@@ -208,7 +206,7 @@ bool RoutineParser::parseNested(const RoutineDecl* routine) {
     }
     const Nest nest(nodes());
     if (open > 0 || !nest) return false;
-    report(Code::NestedDeclaration, word,
+    report(say::NestedDeclaration, word,
            {describe(word), routine->name == kNoToken ? std::string() : std::string(textOf(routine->name))});
     const TokenIndex start = block().routineStart;
     if (Decl* decl = modules().parseDeclaration()) nodes().decls.push_back(decl);
@@ -238,7 +236,7 @@ void RoutineParser::parseRoutineData() {
             data_.push_back(data().parseMoreNames());
         } else if ((k == K::KwLocal || k == K::KwInout) && isName(peek()) && isName(peek(2)) &&
                    !startsLine(pos() + 2)) {
-            fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "VAR before the data of a routine"}),
+            fix(report(say::UnexpectedToken, pos(), {describe(pos()), "VAR before the data of a routine"}),
                 range(pos()), "VAR", false);
             readAs(pos(), K::KwVar);
             data_.push_back(data().parseData(ScopeWord::None, first));
@@ -252,7 +250,7 @@ void RoutineParser::parseRoutineData() {
 
 void RoutineParser::reportScopeInside(ScopeWord scope, bool late) {
     if (peek() == K::KwPers) return;
-    fix(report(Code::ScopeInsideRoutine, pos(), {scope == ScopeWord::Local ? "LOCAL" : "TASK"}),
+    fix(report(say::ScopeInsideRoutine, pos(), {scope == ScopeWord::Local ? "LOCAL" : "TASK"}),
         {range(pos()).begin, range(pos() + 1).begin}, "", !late);
 }
 
@@ -278,11 +276,11 @@ void RoutineParser::parseHandler(RoutineDecl* routine, K previous) {
                           (word == K::KwUndo && routine->hasUndo) || (plainError && block().plainError);
     block().plainError |= plainError;
     if (repeated) {
-        report(Code::DuplicateHandler, pos(), {describe(pos())});
+        report(say::DuplicateHandler, pos(), {describe(pos())});
     } else if (word == K::KwBackward && routine->routineKind != RoutineKind::Proc) {
-        report(Code::BackwardOutsideProcedure, pos(), {std::string(wordsOf(routine->routineKind).name)});
+        report(say::BackwardOutsideProcedure, pos(), {std::string(wordsOf(routine->routineKind).name)});
     } else if (rank(word) < rank(previous)) {
-        report(Code::HandlerOrder, pos(), {describe(pos()), std::string(tokenText(previous))});
+        report(say::HandlerOrder, pos(), {describe(pos()), std::string(tokenText(previous))});
     }
     auto* clause = make<ErrorClause>(NodeKind::ErrorClause);
     take();
@@ -313,7 +311,7 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     if (accept(words.end) || braced) return;
     if (!reports().isNewsHere()) return;
     const std::string expected(tokenText(words.end));
-    diag::Diagnostic* diagnostic = report(Code::MissingBlockEnd, pos(), {describe(pos()), expected});
+    diag::Diagnostic* diagnostic = report(say::MissingBlockEnd, pos(), {describe(pos()), expected});
     note(diagnostic, opening, std::string(words.name) + " begins here");
     const bool endsModule = kind() == K::KwEndmodule &&
                             (peek() == K::KwEndmodule || ahead().startsDeclaration(pos() + 1)) &&

@@ -6,8 +6,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 Stmt* InstructionParser::parseAssignment(Expr* target, TokenIndex first) {
     auto* node = make<AssignStmt>(NodeKind::Assign);
     const size_t unreadable = reports().unreadable();
@@ -55,7 +53,7 @@ Stmt* InstructionParser::parseProcedureCall() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     node->name = take();
     if (ahead().calleeEndsHere(node->name, node->name)) {
-        fix(reportAt(Code::MissingSemicolon, endOf(node->name), {describe(node->name)}), endOf(node->name),
+        fix(reportAt(say::MissingSemicolon, endOf(node->name), {describe(node->name)}), endOf(node->name),
             ";");
         return finish(node);
     }
@@ -75,7 +73,7 @@ Stmt* InstructionParser::parseProcedureCall() {
         return parseEffectiveInstruction();
     if (node->args.empty() && ahead().atReservedName()) { // an argument
         node->args = {};
-        report(Code::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
+        report(say::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
         startPanic();
     }
     sync().endInstruction(node->args.empty() ? "an argument or ';'" : "',' or ';'");
@@ -135,7 +133,7 @@ Stmt* InstructionParser::parseReturnOrRaise(bool isReturn) {
     constexpr TokenSet kSigns = {K::Assign, K::Equal, K::Colon};
     if (kSigns.has(kind()) && !startsLine(pos()) && startsExpression(peek()) &&
         !startsLine(pos() + 1)) { // RETURN = x;
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "a value after " + describe(first)}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "a value after " + describe(first)}),
             {range(pos()).begin, range(pos() + 1).begin}, range(first).end == range(pos()).begin ? " " : "");
         take();
     }
@@ -197,7 +195,7 @@ void InstructionParser::skipTrapArguments() {
         ++last;
     if (kindAt(last) != K::RightParen || kindAt(last + 1) != K::Semicolon) return;
     const SourceRange whole{range(pos()).begin, range(last).end};
-    fix(report(Code::UnexpectedToken, pos(), {"'('", "';': a trap routine is named, not called"}), whole, "");
+    fix(report(say::UnexpectedToken, pos(), {"'('", "';': a trap routine is named, not called"}), whole, "");
     moveTo(last + 1);
 }
 

@@ -5,7 +5,7 @@
 
 namespace rapid::syntax {
 
-/// Stands at one token. Only this class moves, and only this class changes what a token is read as.
+/// A position in the tokens. Only this class moves it, and only this class changes the kind a token is read as.
 class TokenCursor {
   public:
     explicit TokenCursor(SyntaxTree& tree)

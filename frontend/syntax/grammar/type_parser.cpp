@@ -4,8 +4,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     auto* node = make<RecordDecl>(NodeKind::Record);
     node->first = first;
@@ -23,7 +21,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     }
     const bool braced = kind() == K::LeftBrace;
     if (braced) {
-        report(Code::ForeignSpelling, pos(), {"{", "a component: a record ends with ENDRECORD"});
+        report(say::ForeignSpelling, pos(), {"{", "a component: a record ends with ENDRECORD"});
         take();
     }
     node->components = parseComponents(braced);
@@ -33,7 +31,7 @@ Decl* TypeParser::parseRecord(bool local, TokenIndex first) {
     }
     if (node->components.empty() && kind() == K::KwEndrecord && !parser().options.declarations &&
         reports().errors() == errorsBefore)
-        report(Code::EmptyRecord, node->name == kNoToken ? opening : node->name,
+        report(say::EmptyRecord, node->name == kNoToken ? opening : node->name,
                {std::string(textOf(node->name))});
     // An END word of a routine below RECORD was meant as its end.
     constexpr TokenSet kWrong = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
@@ -69,13 +67,13 @@ std::span<RecordComponent*> TypeParser::parseComponents(bool braced) {
 RecordComponent* TypeParser::parseComponent() {
     auto* node = make<RecordComponent>(NodeKind::RecordComponent);
     if (isName(kind()) && peek() == K::Semicolon && !isBasicType(textOf(pos())))
-        report(Code::MissingDataType, pos(), {std::string(textOf(pos()))});
+        report(say::MissingDataType, pos(), {std::string(textOf(pos()))});
     else
         node->type = names().expectName();
     node->name = names().expectName();
     names().checkNameLength(node->name);
     if (!panic() && kind() == K::LeftBrace) {
-        report(Code::ComponentArray, pos(), {std::string(textOf(node->name))});
+        report(say::ComponentArray, pos(), {std::string(textOf(node->name))});
         startPanic();
     }
     sync().endInstruction(kind() == K::Comma ? "';': a component has one name"

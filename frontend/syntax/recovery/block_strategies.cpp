@@ -4,8 +4,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// "IF a DO ... ENDWHILE", "WHILE a THEN ... ENDIF", and "IF n" above "CASE 1:": the rest of the block shows its kind.
@@ -55,7 +53,7 @@ class DeclaredCounter : public RecoveryStrategy {
                           peek(2) == K::KwFrom && !ahead().beginsInstruction();
         if (panic() || (!word && !type)) return {};
         const TokenIndex name = word && isName(peek(2)) ? pos() + 2 : pos() + 1;
-        return leaveOut(name, Code::UnexpectedToken,
+        return leaveOut(name, say::UnexpectedToken,
                         {describe(pos()), "the name of the loop variable, which FOR declares by itself"},
                         {range(pos()).begin, range(name).begin});
     }
@@ -82,7 +80,7 @@ class AssignForFrom : public RecoveryStrategy {
         if (panic() || (kind() != K::Assign && kind() != K::Equal)) return {};
         const bool before = range(pos() - 1).end < range(pos()).begin;
         const bool after = range(pos()).end < range(pos() + 1).begin;
-        Repair repair = leaveOut(pos() + 1, Code::MissingBlockWord, {describe(pos()), "FROM"}, range(pos()));
+        Repair repair = leaveOut(pos() + 1, say::MissingBlockWord, {describe(pos()), "FROM"}, range(pos()));
         repair.edit->replacement = std::string(before ? "" : " ") + "FROM" + (after ? "" : " ");
         return repair;
     }
@@ -105,7 +103,7 @@ class ThenAfterElse : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation&) const override {
         if (kind() != K::KwThen || startsLine(pos())) return {};
-        return leaveOut(pos() + 1, Code::StrayKeyword, {"THEN", "IF"}, range(pos()));
+        return leaveOut(pos() + 1, say::StrayKeyword, {"THEN", "IF"}, range(pos()));
     }
 };
 

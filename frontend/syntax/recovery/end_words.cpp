@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
@@ -24,7 +22,7 @@ void EndWords::closeBlock(K end, TokenIndex opening, bool whole) {
     if (block().abandoned) return;
     if (kBlockEnds.has(kind()) && peek() == end &&
         block().enclosing.has(kind())) { // two END words in the wrong order
-        note(report(Code::MissingBlockEnd, pos(), {describe(pos()), std::string(tokenText(end))}), opening,
+        note(report(say::MissingBlockEnd, pos(), {describe(pos()), std::string(tokenText(end))}), opening,
              fmt::format("{} begins here, so its {} comes first", describe(opening), tokenText(end)));
         readAs(pos() + 1, kind());
         readAs(pos(), end);
@@ -33,7 +31,7 @@ void EndWords::closeBlock(K end, TokenIndex opening, bool whole) {
     }
     const std::string opened = describe(opening);
     if (whole && reports().isNewsHere())
-        note(report(Code::MissingBlockEnd, pos(), {describe(pos()), std::string(tokenText(end))}), opening,
+        note(report(say::MissingBlockEnd, pos(), {describe(pos()), std::string(tokenText(end))}), opening,
              fmt::format("{} begins here", opened));
     if (isMarked(Mark::WrongEnd)) take();
 }
@@ -42,12 +40,12 @@ bool EndWords::takesEarlyEndmodule() {
     if (panic() || block().abandoned || !block().endsRoutineTooEarly()) return false;
     const std::string end(tokenText(block().routineEnd));
     if (peek() == block().routineEnd && kindAt(pos() + 2) == K::EndOfFile) { // the two in the wrong order
-        report(Code::MissingBlockEnd, pos(), {describe(pos()), end});
+        report(say::MissingBlockEnd, pos(), {describe(pos()), end});
         readAs(pos() + 1, K::KwEndmodule);
         readAs(pos(), block().routineEnd);
         return true;
     }
-    report(Code::UnexpectedToken, pos(), {describe(pos()), "an instruction: " + end + " is still to come"});
+    report(say::UnexpectedToken, pos(), {describe(pos()), "an instruction: " + end + " is still to come"});
     take();
     return true;
 }

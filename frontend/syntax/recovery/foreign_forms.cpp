@@ -32,7 +32,7 @@ bool ForeignForms::isEndlessLoop() {
     if (panic() || !isContextual(pos(), "LOOP") || !ahead().endsLine(pos()) ||
         kindAt(block().unmatchedWord(pos() + 1)) != K::KwEndwhile)
         return false;
-    fix(report(Code::ForeignSpelling, pos(), {std::string(textOf(pos())), "WHILE TRUE DO"}), range(pos()),
+    fix(report(say::ForeignSpelling, pos(), {std::string(textOf(pos())), "WHILE TRUE DO"}), range(pos()),
         "WHILE TRUE DO");
     return true;
 }
@@ -42,7 +42,7 @@ bool ForeignForms::startsForeignBlock() {
     const std::string word = upperCase(textOf(pos()));
     for (const ForeignBlock& form : kForeignBlocks) {
         if (form.word != word) continue;
-        report(Code::ForeignSpelling, pos(), {word, std::string(form.expected)});
+        report(say::ForeignSpelling, pos(), {word, std::string(form.expected)});
         block().foreignCloser = form.closer;
         take();
         return true;
@@ -74,7 +74,7 @@ StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expecte
     if ((kind() == K::LeftBrace && recovery().repair(Place::Braces)) || kind() != K::LeftBrace || panic())
         return instructions().parseInstructions(own);
     if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
-        report(Code::ForeignSpelling, pos(), {"{", expected});
+        report(say::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
         reports().last()->fixes.front().certain = false; // the braces are still to be corrected
     braced = true;
@@ -108,14 +108,14 @@ bool ForeignForms::negatesByComment(std::string_view ending) {
     if (comment.size() <= ending.size() ||
         !equalsNoCase(comment.substr(comment.size() - ending.size()), ending))
         return false;
-    fix(reportAt(Code::ForeignSpelling, {at, at + 1}, {"!", "NOT: '!' begins a comment"}), {at, at + 1},
+    fix(reportAt(say::ForeignSpelling, {at, at + 1}, {"!", "NOT: '!' begins a comment"}), {at, at + 1},
         "NOT ");
     return true;
 }
 
 bool ForeignForms::parseForeignFor(ForStmt* node) {
     if (panic() || kind() != K::LeftParen) return false;
-    report(Code::ForeignSpelling, pos(), {"(", "a head such as FOR i FROM 1 TO 10 DO"});
+    report(say::ForeignSpelling, pos(), {"(", "a head such as FOR i FROM 1 TO 10 DO"});
     uint32_t depth = 0;
     do {
         if (kind() == K::LeftParen) ++depth;
@@ -132,7 +132,7 @@ bool ForeignForms::parseForeignFor(ForStmt* node) {
 
 bool ForeignForms::parseForIn(ForStmt* node) {
     if (panic() || !isName(kind()) || !isContextual(pos() + 1, "IN") || startsLine(pos() + 1)) return false;
-    report(Code::ForeignSpelling, pos() + 1,
+    report(say::ForeignSpelling, pos() + 1,
            {std::string(textOf(pos() + 1)), "a head such as FOR i FROM 1 TO 10 DO"});
     node->variable = pos();
     do
@@ -149,7 +149,7 @@ bool ForeignForms::parseForeignData(DataDecl* node) {
     const bool as = isContextual(pos() + 1, "AS") && isName(peek(2));
     const bool colon = peek() == K::Colon && isName(peek(2));
     if (as || colon) {
-        report(Code::ForeignSpelling, pos() + 1,
+        report(say::ForeignSpelling, pos() + 1,
                {std::string(textOf(pos() + 1)), "the data type before the name"});
         node->name = take();
         take();
@@ -157,7 +157,7 @@ bool ForeignForms::parseForeignData(DataDecl* node) {
         return true;
     }
     if (!kAfterName.has(peek()) || isBasicType(textOf(pos()))) return false; // of a type, the name is missing
-    report(Code::MissingDataType, pos(), {std::string(textOf(pos()))});
+    report(say::MissingDataType, pos(), {std::string(textOf(pos()))});
     node->name = take();
     return true;
 }
@@ -166,7 +166,7 @@ bool ForeignForms::parseForeignParameter(ParamDecl* node) {
     constexpr TokenSet kAfter = {K::Comma, K::RightParen, K::Bar, K::Backslash};
     if (!isName(kind())) return false;
     if (peek() == K::Colon && isName(peek(2))) {
-        report(Code::ForeignSpelling, pos() + 1, {":", "the data type before the name"});
+        report(say::ForeignSpelling, pos() + 1, {":", "the data type before the name"});
         node->name = take();
         take();
         node->type = take();
@@ -174,7 +174,7 @@ bool ForeignForms::parseForeignParameter(ParamDecl* node) {
     }
     if (!kAfter.has(peek()) || isBasicType(textOf(pos()))) return false;
     if (!std::exchange(parameters().typeMissed, true))
-        report(Code::MissingDataType, pos(), {std::string(textOf(pos()))});
+        report(say::MissingDataType, pos(), {std::string(textOf(pos()))});
     node->name = take();
     return true;
 }
@@ -192,7 +192,7 @@ void ForeignForms::dropForeignMode(ParamDecl* node) {
     for (const Mode& mode : kModes) {
         if (!isContextual(pos(), mode.word)) continue;
         diag::Diagnostic* diagnostic =
-            report(Code::ForeignSpelling, pos(), {std::string(textOf(pos())), std::string(mode.expected)});
+            report(say::ForeignSpelling, pos(), {std::string(textOf(pos())), std::string(mode.expected)});
         if (mode.fix.empty())
             fix(diagnostic, {range(pos()).begin, range(pos() + 1).begin}, "");
         else
@@ -212,7 +212,7 @@ bool ForeignForms::missesComma() {
         startsLine(pos()) || startsLine(type))
         return false;
     const bool isSwitch = isContextual(type, "SWITCH");
-    fix(report(Code::MissingClosing, pos(),
+    fix(report(say::MissingClosing, pos(),
                {describe(pos()), isSwitch ? "'\\' before a switch" : "',' or ')'"}),
         semicolon ? range(pos()) : endOf(pos() - 1), isSwitch ? "\\" : ",");
     if (semicolon) take();

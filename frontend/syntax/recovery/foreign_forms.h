@@ -12,7 +12,7 @@ class ForeignForms : public ParserPart {
 
     /// LOOP, closed by ENDWHILE.
     bool isEndlessLoop();
-    /// REPEAT, LOOP ... at the end of a line: reported; the word that closes the block is then passed over.
+    /// REPEAT, LOOP ... at the end of a line: reported; the word that closes the block is then skipped.
     bool startsForeignBlock();
     bool endsForeignBlock();
     /// One of the words that may come next.
@@ -21,7 +21,7 @@ class ForeignForms : public ParserPart {
     StmtList parseBody(const TokenSet& own, const std::string& expected, bool& braced);
     /// Braces that belong to nothing: a block without a word, or a comment.
     Stmt* parseBareBraces();
-    /// "IF !ready THEN": the rest of the line is a comment, which ends with this word, and what follows is no operand.
+    /// "IF !ready THEN": the rest of the line is a comment, which ends with this word, and an operand does not follow.
     bool negatesByComment(std::string_view ending);
     /// `FOR (i = 0; i < 3; i++)`: one report for the head; what is assigned first is the loop variable.
     bool parseForeignFor(ForStmt* node);

@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 struct LaterWord {
@@ -82,7 +80,7 @@ void LaterWords::readLaterWordsAsNames() {
             if (first == kNoToken) first = i;
         }
         if (first == kNoToken) continue;
-        report(Code::LaterReservedWord, first, {std::string(tokenText(word.kind)), std::string(word.since)});
+        report(say::LaterReservedWord, first, {std::string(tokenText(word.kind)), std::string(word.since)});
         for (TokenIndex i = 0; i < lastToken(); ++i)
             if (kindAt(i) == word.kind &&
                 ((procedure && word.endsAtOnce) || isNameInOldFile(i, word.endsAtOnce)))

@@ -38,8 +38,8 @@ class ListStrategy : public RecoveryStrategy {
         }
     }
     /// A word for END that ends nothing: reported, and read as an instruction that says nothing.
-    Repair strayEnd(Code code, std::string expected, unsigned cost) const {
-        Repair repair = leaveOut(pos(), code, {describe(pos()), std::move(expected)}, {});
+    Repair strayEnd(diag::Message<2> message, std::string expected, unsigned cost) const {
+        Repair repair = leaveOut(pos(), message, {describe(pos()), std::move(expected)}, {});
         repair.cost = cost;
         repair.edit.reset();
         repair.mark = Mark::StrayEnd;
@@ -108,7 +108,7 @@ class LoneEnd : public ListStrategy {
         const K end = block().endOfOwn(at.own);
         if (!isContextual(pos(), "END") || !startsLine(pos() + 1) || !mayBeWord() || !at.own.has(end))
             return {};
-        if (!block().closesHere(end)) return strayEnd(Code::StrayKeyword, "a block", 1);
+        if (!block().closesHere(end)) return strayEnd(say::StrayKeyword, "a block", 1);
         return fits(end, pos()) && peek() != K::Colon ? keyword(pos(), pos(), end) : Proposal();
     }
 };
@@ -141,7 +141,7 @@ class OtherRoutineEnd : public ListStrategy {
         const K own = block().routineEnd;
         if (!other || other->as == own) return {};
         if (block().endOfRoutineBelow() != own) return keyword(pos(), pos(), own, other->cost);
-        return strayEnd(Code::UnexpectedToken,
+        return strayEnd(say::UnexpectedToken,
                         "an instruction: " + std::string(tokenText(own)) + " is still to come", other->cost);
     }
 };

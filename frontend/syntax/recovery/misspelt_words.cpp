@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// Words of other languages for keywords of RAPID.
@@ -70,7 +68,7 @@ void MisspeltWords::readAsKeyword(TokenIndex first, TokenIndex last, K word) {
     if (closed != foreignClosers_.end()) {
         foreignClosers_.erase(closed);
     } else {
-        diag::Diagnostic* diagnostic = reportAt(Code::MisspeltKeyword, place, {std::string(shown), spelling});
+        diag::Diagnostic* diagnostic = reportAt(say::MisspeltKeyword, place, {std::string(shown), spelling});
         fix(diagnostic, place, spelling);
         noteForeignCloser(diagnostic, last, word);
     }

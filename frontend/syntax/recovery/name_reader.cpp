@@ -8,12 +8,10 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 TokenIndex NameReader::expectName(bool newerKeywords) {
     if (isName(kind())) return take();
     if (kind() == K::NumLiteral && !startsLine(pos())) { // "1st"
-        report(Code::NameStart, pos(), {std::string(textOf(pos()).substr(0, 40))});
+        report(say::NameStart, pos(), {std::string(textOf(pos()).substr(0, 40))});
         return take();
     }
     if (newerKeywords && (kind() == K::KwBreak || kind() == K::KwContinue)) {
@@ -25,7 +23,7 @@ TokenIndex NameReader::expectName(bool newerKeywords) {
     const bool canBeName = !kEndWords.has(kind()) || (kAfterName.has(peek()) && !startsLine(pos() + 1));
     if (isKeyword(kind()) && canBeName && !startsLine(pos())) return takeReservedName();
     if (startsLine(pos()) && pos() > 0 && kind() != K::Error) {
-        reportAt(Code::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "a name"});
+        reportAt(say::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "a name"});
         startPanic();
     } else {
         unexpected("a name");
@@ -40,13 +38,13 @@ TokenIndex NameReader::expectNameHere() {
 }
 
 TokenIndex NameReader::missingName() {
-    reportAt(Code::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "a name"});
+    reportAt(say::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "a name"});
     return kNoToken;
 }
 
 void NameReader::skipSecond(TokenIndex word) {
     if (kind() != kindAt(word) || pos() != word + 1 || startsLine(pos())) return;
-    fix(report(Code::UnexpectedToken, pos(), {describe(pos()) + " twice", "a name"}),
+    fix(report(say::UnexpectedToken, pos(), {describe(pos()) + " twice", "a name"}),
         {range(word).end, range(pos()).end}, "");
     take();
 }
@@ -56,7 +54,7 @@ TokenIndex NameReader::takeReservedName() {
         readAs(pos(), K::Identifier);
     } else {
         diag::Diagnostic* diagnostic =
-            report(Code::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
+            report(say::ReservedWordAsName, pos(), {std::string(tokenText(kind()))});
         if (kind() == K::KwBreak || kind() == K::KwContinue) {
             note(diagnostic, pos(),
                  fmt::format("an instruction since {}: programs of older controllers need another name",
@@ -92,7 +90,7 @@ void NameReader::checkNameLength(TokenIndex name) {
     const auto length = static_cast<size_t>(std::count_if(text.begin(), text.end(), isStart));
     if (length <= kMaxNameLength) return;
     const size_t shown = std::min<size_t>(text.size(), 60);
-    report(Code::NameTooLong, name,
+    report(say::NameTooLong, name,
            {std::string(text.substr(0, shown)) + (shown < text.size() ? "..." : ""), std::to_string(length)});
 }
 

@@ -18,7 +18,7 @@ class NameReader : public ParserPart {
     void skipSecond(TokenIndex word);
     /// A reserved word in the place of a name. One that data was declared with is meant as that name from then on.
     TokenIndex takeReservedName();
-    /// Data with the name of a reserved word, which has been reported: its uses are no further mistakes.
+    /// Data with the name of a reserved word, which has been reported: its uses are not reported again.
     void declareReserved(TokenIndex name);
     void checkNameLength(TokenIndex name);
 

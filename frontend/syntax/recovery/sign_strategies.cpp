@@ -4,8 +4,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 // ---- Lists -----------------------------------------------------------------------------------------------------
@@ -23,7 +21,7 @@ class SemicolonInList : public RecoveryStrategy {
             if (k == K::Semicolon || (depth == 0 && k == K::Assign && !optional)) return {};
             if (!kCloseBrackets.has(k) || depth-- > 0) continue;
             if (k != at.expected) return {};
-            return sign(K::Comma, Code::UnexpectedToken, describe(pos()), "','", ",");
+            return sign(K::Comma, say::UnexpectedToken, describe(pos()), "','", ",");
         }
         return {};
     }
@@ -37,7 +35,7 @@ class SemicolonInCase : public RecoveryStrategy {
         if (kind() != K::Semicolon || startsLine(pos() + 1) || !startsExpression(peek()) ||
             !ahead().findOnLine(pos() + 1, K::Colon, colon) || !startsLine(colon + 1))
             return {};
-        Repair repair = leaveOut(pos() + 1, Code::UnexpectedToken, {describe(pos()), "','"}, range(pos()));
+        Repair repair = leaveOut(pos() + 1, say::UnexpectedToken, {describe(pos()), "','"}, range(pos()));
         repair.edit->replacement = ",";
         return repair;
     }
@@ -51,7 +49,7 @@ class SlashForBackslash : public RecoveryStrategy {
                                          K::RightParen, K::Backslash, K::Question};
         const bool parameter = at.place == Place::Parameter;
         if (kind() != K::Slash || !isName(peek()) || (!parameter && !kAfterName.has(peek(2)))) return {};
-        return sign(K::Backslash, Code::ForeignSpelling, "/",
+        return sign(K::Backslash, say::ForeignSpelling, "/",
                     parameter ? "'\\' before an optional parameter" : "'\\' before an optional argument",
                     "\\");
     }
@@ -63,7 +61,7 @@ class CommaAfterCall : public RecoveryStrategy {
     Proposal propose(const Situation&) const override {
         constexpr TokenSet kNoArgument = {K::Identifier, K::NumLiteral, K::StringLiteral};
         if (!kNoArgument.has(peek(2)) || !startsLine(pos() + 1) || startsLine(pos() + 2)) return {};
-        return sign(K::Semicolon, Code::UnexpectedToken, "','", "';'", ";");
+        return sign(K::Semicolon, say::UnexpectedToken, "','", "';'", ";");
     }
 };
 
@@ -74,7 +72,7 @@ class ColonForAssign : public RecoveryStrategy {
         const TokenIndex last = peek() == K::Equal ? pos() + 1 : pos();
         const SourceRange both{range(pos()).begin, range(last).end};
         const auto shown = std::string(sourceText().substr(both.begin, both.end - both.begin));
-        Repair repair = sign(K::Assign, Code::ForeignSpelling, shown, "':='", ":=");
+        Repair repair = sign(K::Assign, say::ForeignSpelling, shown, "':='", ":=");
         repair.last = repair.next = last;
         repair.range = repair.edit->range = both;
         return repair;
@@ -93,7 +91,7 @@ class CommentStrategy : public RecoveryStrategy {
         while (!startsLine(next))
             ++next;
         Repair repair =
-            leaveOut(next, Code::ForeignSpelling, {std::move(shown), std::move(expected)}, edit.range);
+            leaveOut(next, say::ForeignSpelling, {std::move(shown), std::move(expected)}, edit.range);
         repair.range.end = range(last).end;
         repair.edit = std::move(edit);
         return repair;
@@ -146,7 +144,7 @@ class BracedComment : public RecoveryStrategy {
                kindAt(close) != K::Semicolon)
             ++close;
         if (panic() || kindAt(close) != K::RightBrace || startsLine(close) || close == pos() + 1) return {};
-        Repair repair = leaveOut(close + 1, Code::ForeignSpelling, {"{", "'!' before a comment"}, {});
+        Repair repair = leaveOut(close + 1, say::ForeignSpelling, {"{", "'!' before a comment"}, {});
         repair.edit.reset();
         return repair;
     }

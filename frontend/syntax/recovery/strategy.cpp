@@ -13,20 +13,20 @@ std::optional<Repair> RecoveryStrategy::nearest(TokenIndex i, std::initializer_l
     return best;
 }
 
-Repair RecoveryStrategy::sign(K as, diag::Code code, std::string shown, std::string expected,
+Repair RecoveryStrategy::sign(K as, diag::Message<2> message, std::string shown, std::string expected,
                               std::string text) const {
     return {.first = pos(),
             .last = pos(),
             .as = as,
             .next = pos(),
-            .code = code,
+            .code = message.code,
             .range = range(pos()),
             .args = {std::move(shown), std::move(expected)},
             .edit = TextEdit{range(pos()), std::move(text)}};
 }
 
-Repair RecoveryStrategy::leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args,
-                                  SourceRange text) const {
+Repair RecoveryStrategy::leaveOutAs(TokenIndex next, diag::Code code, std::vector<std::string> args,
+                                    SourceRange text) const {
     return {.first = pos(),
             .last = next - 1,
             .next = next,
@@ -62,7 +62,7 @@ void Recovery::apply(const Repair& repair) {
         moveTo(repair.first);
         typos().readAsKeyword(repair.first, repair.last, repair.as);
     } else if (!repair.silent) {
-        diag::Diagnostic* diagnostic = reports().reportAt(repair.code, repair.range, repair.args);
+        diag::Diagnostic* diagnostic = reports().reportCode(repair.code, repair.range, repair.args);
         if (diagnostic && repair.edit && repair.unclear)
             diagnostic->fix(repair.edit->range, repair.edit->replacement, repair.certain);
         else if (repair.edit)

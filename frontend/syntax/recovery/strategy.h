@@ -85,9 +85,18 @@ class RecoveryStrategy : public ParserPart {
     /// The name at `i` was meant as one of these keywords: the one with the fewest edits, the first of several.
     Proposal nearest(TokenIndex i, std::initializer_list<K> words) const;
     /// The sign at the current token was meant as another one, written `text`.
-    Repair sign(K as, diag::Code code, std::string shown, std::string expected, std::string text) const;
-    /// The tokens from the current one up to `next` are too many; removing `text` mends it.
-    Repair leaveOut(TokenIndex next, diag::Code code, std::vector<std::string> args, SourceRange text) const;
+    Repair sign(K as, diag::Message<2> message, std::string shown, std::string expected,
+                std::string text) const;
+    /// The tokens from the current one up to `next` are too many; removing `text` corrects it.
+    template <size_t N>
+    Repair leaveOut(TokenIndex next, diag::Message<N> message, diag::MessageArgs<N> args,
+                    SourceRange text) const {
+        return leaveOutAs(next, message.code, {args, args + N}, text);
+    }
+
+  private:
+    Repair leaveOutAs(TokenIndex next, diag::Code code, std::vector<std::string> args,
+                      SourceRange text) const;
 };
 
 /// The strategies of one parser, by place, the likelier ones first.

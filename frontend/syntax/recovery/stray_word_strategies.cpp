@@ -29,11 +29,11 @@ class StrayStrategy : public RecoveryStrategy {
                 .mark = Mark::WrongEnd};
     }
     /// The word is read as no instruction.
-    Repair isStray(Code code, std::string expected) const {
+    Repair isStray(diag::Message<2> message, std::string expected) const {
         return {.first = pos(),
                 .last = pos(),
                 .next = pos(),
-                .code = code,
+                .code = message.code,
                 .range = range(pos()),
                 .args = {describe(pos()), std::move(expected)}};
     }
@@ -71,7 +71,7 @@ class ElseForDefault : public StrayStrategy {
         if (kind() != K::KwElse || !at.own.has(K::KwDefault)) return {};
         const bool colon = peek() == K::Colon;
         const std::string word = colon ? "DEFAULT" : "DEFAULT:";
-        Repair repair = sign(K::KwDefault, Code::MisspeltKeyword, describe(pos()), word, word);
+        Repair repair = sign(K::KwDefault, say::MisspeltKeyword, describe(pos()), word, word);
         repair.endsList = true;
         if (!colon) repair.mark = Mark::ColonGiven;
         return repair;
@@ -87,7 +87,7 @@ class BlockOfCompactIf : public StrayStrategy {
         if (!kOfIf.has(kind()) || opening == kNoToken || end == kNoToken ||
             isMarked(Mark::BlockOfCompactIf, opening) || columnOf(pos()) != columnOf(opening))
             return {};
-        Repair repair = isStray(Code::MissingBlockWord, "THEN");
+        Repair repair = isStray(say::MissingBlockWord, "THEN");
         repair.range = endOf(end);
         repair.args[0] = describe(end + 1);
         repair.edit = TextEdit{endOf(end), " THEN"};
@@ -117,7 +117,7 @@ class EarlyRoutineEnd : public StrayStrategy {
         if (!inBlock(at) || !block().endsRoutineTooEarly()) return {};
         if (!at.own.has(kindAt(block().unmatchedWord(pos() + 1)))) return endsList();
         const std::string end(tokenText(block().endOfOwn(at.own)));
-        return isStray(Code::UnexpectedToken, "an instruction: " + end + " is still to come");
+        return isStray(say::UnexpectedToken, "an instruction: " + end + " is still to come");
     }
 };
 
@@ -126,7 +126,7 @@ class WordWithoutOpener : public StrayStrategy {
     using StrayStrategy::StrayStrategy;
     Proposal propose(const Situation&) const override {
         const TokenIndex compact = block().compactIf;
-        Repair repair = isStray(Code::StrayKeyword, std::string(opener()));
+        Repair repair = isStray(say::StrayKeyword, std::string(opener()));
         repair.cost = 2;
         if (!opener().starts_with("IF") || isMarked(Mark::BlockOfCompactIf, compact)) return repair;
         repair.noteAt = compact;

@@ -6,8 +6,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 void Synchronizer::endInstruction(std::string_view expected) {
     if (accept(K::Semicolon)) {
         constexpr TokenSet kClosing = {K::RightParen, K::RightBracket, K::RightBrace};
@@ -20,7 +18,7 @@ void Synchronizer::endInstruction(std::string_view expected) {
     if (!panic() && kind() != K::Error) {
         if (block().startsAfresh()) {
             diag::Diagnostic* missing =
-                reportAt(Code::MissingSemicolon, endOf(pos() - 1), {describe(pos() - 1)});
+                reportAt(say::MissingSemicolon, endOf(pos() - 1), {describe(pos() - 1)});
             const bool twoWords = pos() > 1 && kindAt(pos() - 1) == K::Identifier &&
                                   kindAt(pos() - 2) == K::Identifier && startsLine(pos() - 2);
             fix(missing, endOf(pos() - 1), ";");
@@ -33,7 +31,7 @@ void Synchronizer::endInstruction(std::string_view expected) {
             const std::string_view remedy =
                 ahead().quoteInText() ? ": a '\"' inside a text is written twice" : "";
             diag::Diagnostic* d = reports().reportAfterExpr(
-                Code::UnexpectedToken, {describe(pos()), fmt::format("{}{}", expected, remedy)});
+                say::UnexpectedToken, {describe(pos()), fmt::format("{}{}", expected, remedy)});
             if ((kind() == K::Colon || kind() == K::Comma) && startsLine(pos() + 1))
                 fix(d, range(pos()), ";");
         }
@@ -72,10 +70,10 @@ void Synchronizer::expectWord(K word) {
     if (!silent) {
         const std::string expected(tokenText(word));
         if (!later && startsLine(pos())) {
-            fix(reportAt(Code::MissingBlockWord, endOf(pos() - 1), {describe(pos()), expected}),
+            fix(reportAt(say::MissingBlockWord, endOf(pos() - 1), {describe(pos()), expected}),
                 endOf(pos() - 1), " " + expected);
         } else {
-            report(Code::MissingBlockWord, pos(), {describe(pos()), expected});
+            report(say::MissingBlockWord, pos(), {describe(pos()), expected});
         }
     }
     endPanic();
@@ -117,9 +115,9 @@ void Synchronizer::expectClosing(K closing, TokenIndex opening, bool inList) {
         return;
     }
     if (startsLine(pos())) {
-        diagnostic = reportAt(Code::MissingClosing, endOf(pos() - 1), {describe(pos()), expected});
+        diagnostic = reportAt(say::MissingClosing, endOf(pos() - 1), {describe(pos()), expected});
     } else {
-        diagnostic = reports().reportAfterExpr(Code::MissingClosing, {describe(pos()), expected});
+        diagnostic = reports().reportAfterExpr(say::MissingClosing, {describe(pos()), expected});
     }
     note(diagnostic, opening, fmt::format("the '{}' is here", textOf(opening)));
     startPanic();

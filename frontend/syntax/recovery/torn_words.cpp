@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// Names that most programs use without declaring them.
@@ -133,12 +131,12 @@ void TornWords::reportMissingIf() {
     const bool glued = text.size() > kIf.size() && equalsNoCase(text.substr(0, kIf.size()), kIf) &&
                        spellingInFile(text, pos(), pos()).empty();
     if (!glued) {
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "IF before a condition"}),
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "IF before a condition"}),
             {place.begin, place.begin}, "IF ");
         return;
     }
     const std::string whole = "IF " + std::string(text.substr(kIf.size()));
-    fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "'" + whole + "': two words"}), place, whole);
+    fix(report(say::UnexpectedToken, pos(), {describe(pos()), "'" + whole + "': two words"}), place, whole);
     reports().noteUnclear(place.begin);
 }
 

@@ -16,8 +16,8 @@ class TornWords : public ParserPart {
     std::string tornName(TokenIndex second);
     /// At a word that is not possible here: it and the word before it, or the two before it, are one name.
     diag::Diagnostic* reportTornName();
-    /// Behind the first word of a name that is being declared: takes the others, "n Rows", "my-name". `after`: what follows a
-    /// name there. Where nothing does, the line ends with it, and the name must be used elsewhere, too.
+    /// After the first word of a name that is being declared: takes the others, "n Rows", "my-name". `after`: what follows a
+    /// name there. At the end of a line the name must be used elsewhere, too.
     bool takeTornName(TokenIndex name, const TokenSet& after, bool endsLine = false);
     /// At the first word of a condition that THEN follows: "reg1 = 1 THEN" and "IFreg1 = 1 THEN".
     void reportMissingIf();

@@ -4,8 +4,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 // ---- Declarations ----------------------------------------------------------------------------------------------
@@ -27,7 +25,7 @@ class WordForGlobal : public RecoveryStrategy {
     Proposal propose(const Situation&) const override {
         if (!kDeclarations.has(peek()) || startsLine(pos() + 1)) return {};
         if (!isContextual(pos(), "GLOBAL") && !isContextual(pos(), "PUBLIC")) return {};
-        return leaveOut(pos() + 1, Code::ForeignSpelling,
+        return leaveOut(pos() + 1, say::ForeignSpelling,
                         {std::string(textOf(pos())), describe(pos() + 1) + ": what is not LOCAL is global"},
                         {range(pos()).begin, range(pos() + 1).begin});
     }
@@ -75,7 +73,7 @@ class RunTogether : public RecoveryStrategy {
                 continue;
             const std::string whole = std::string(spelling).append(" ").append(text.substr(spelling.size()));
             Repair repair =
-                sign(word, Code::UnexpectedToken, describe(pos()), "'" + whole + "': two words", whole);
+                sign(word, say::UnexpectedToken, describe(pos()), "'" + whole + "': two words", whole);
             repair.unclear = true;
             repair.mark = Mark::RunTogether;
             return repair;
@@ -113,7 +111,7 @@ class WordBeforeComponent : public RecoveryStrategy {
                !kRoutineEnds.has(kindAt(i)))
             ++i;
         if (kindAt(i) != K::KwEndrecord) return {};
-        return leaveOut(pos() + 1, Code::ComponentWord, {describe(pos())},
+        return leaveOut(pos() + 1, say::ComponentWord, {describe(pos())},
                         {range(pos()).begin, range(pos() + 1).begin});
     }
 };
@@ -139,7 +137,7 @@ class WordForCall : public RecoveryStrategy {
         if (!isContextual(pos(), "CALL") || !kArgument.has(peek(2)) || startsLine(pos() + 1) ||
             startsLine(pos() + 2))
             return {};
-        return leaveOut(pos() + 1, Code::ForeignSpelling,
+        return leaveOut(pos() + 1, say::ForeignSpelling,
                         {std::string(textOf(pos())), "the name of the procedure"},
                         {range(pos()).begin, range(pos() + 1).begin});
     }
@@ -230,7 +228,7 @@ class PercentForMod : public OperatorStrategy {
             return {};
         const bool before = range(pos() - 1).end == range(pos()).begin;
         const bool after = range(pos() + 1).begin == range(pos()).end;
-        return sign(K::KwMod, Code::ForeignSpelling, "%", "MOD",
+        return sign(K::KwMod, say::ForeignSpelling, "%", "MOD",
                     std::string(before ? " " : "") + "MOD" + (after ? " " : ""));
     }
 };

@@ -12,24 +12,24 @@ void WrongSigns::reportEqual() {
     const bool turned = peek() == K::Colon && range(pos()).end == range(pos() + 1).begin;
     const SourceRange sign{range(pos()).begin, range(turned ? pos() + 1 : pos()).end};
     if (turned || textOf(pos()) == "==") {
-        fix(reportAt(Code::ForeignSpelling, sign, {turned ? "=:" : "==", "':='"}), sign, ":=");
+        fix(reportAt(say::ForeignSpelling, sign, {turned ? "=:" : "==", "':='"}), sign, ":=");
         if (turned) take();
     } else {
-        fix(report(Code::EqualInAssignment, pos()), sign, ":=");
+        fix(report(say::EqualInAssignment, pos()), sign, ":=");
     }
 }
 
 bool WrongSigns::takesColonAs(std::string_view word) {
     if (panic() || kind() != K::Colon || startsLine(pos()) || !startsLine(pos() + 1)) return false;
     if (word.empty()) {
-        fix(report(Code::UnexpectedToken, pos(), {describe(pos()), "an instruction"}), range(pos()), "");
+        fix(report(say::UnexpectedToken, pos(), {describe(pos()), "an instruction"}), range(pos()), "");
     } else {
         const bool spaced = range(pos() - 1).end < range(pos()).begin;
         const std::string meant = (spaced ? "" : " ") + std::string(word);
         constexpr TokenSet kEnds = kIfEnds | TokenSet{K::KwEndfor, K::KwEndwhile};
         const bool closed = kEnds.has(kindAt(block().unmatchedWord(pos() + 1)));
         if (!reports().joinLastEdit(Code::ForeignSpelling, range(pos()), meant)) // "if a == b:"
-            fix(report(Code::MissingBlockWord, pos(), {describe(pos()), std::string(word)}), range(pos()),
+            fix(report(say::MissingBlockWord, pos(), {describe(pos()), std::string(word)}), range(pos()),
                 meant, closed);
         else if (!closed)
             reports().last()->fixes.front().certain = false;
@@ -39,7 +39,7 @@ bool WrongSigns::takesColonAs(std::string_view word) {
 }
 
 void WrongSigns::reportSlash(TokenIndex slash) {
-    fix(report(Code::ForeignSpelling, slash, {"/", "'\\' before an optional argument"}), range(slash), "\\");
+    fix(report(say::ForeignSpelling, slash, {"/", "'\\' before an optional argument"}), range(slash), "\\");
 }
 
 bool WrongSigns::commaWasSemicolon() {
@@ -48,7 +48,7 @@ bool WrongSigns::commaWasSemicolon() {
         return false;
     Stmt* before = nodes().stmts.back();
     if (before->kind != NodeKind::CallStmt || before->last != semicolon) return false;
-    fix(report(Code::UnexpectedToken, semicolon, {"';'", "','"}), range(semicolon), ",");
+    fix(report(say::UnexpectedToken, semicolon, {"';'", "','"}), range(semicolon), ",");
     before->broken = true; // the rest of its arguments is here
     startPanic();
     return true;
@@ -62,7 +62,7 @@ bool WrongSigns::reportDecimalComma() {
     const std::string_view text = textOf(pos() - 1);
     if (!std::all_of(text.begin(), text.end(), isDigit)) return false;
     const std::string_view shown = sourceText().substr(whole.begin, decimals.end - whole.begin);
-    fix(reportAt(Code::ForeignSpelling, {whole.begin, decimals.end},
+    fix(reportAt(say::ForeignSpelling, {whole.begin, decimals.end},
                  {std::string(shown), "'.' before decimals"}),
         comma, ".");
     return true;
@@ -73,7 +73,7 @@ bool WrongSigns::operandBehindSemicolon() {
     if (panic() || startsLine(pos()) || !kOperands.has(peek()) || startsLine(pos() + 1) ||
         !startsLine(pos() + 2))
         return false;
-    if (diag::Diagnostic* d = report(Code::UnexpectedToken, pos(), {describe(pos()), "an expression"}))
+    if (diag::Diagnostic* d = report(say::UnexpectedToken, pos(), {describe(pos()), "an expression"}))
         d->fixes.push_back({"write ';' after it", {{range(pos()), ""}, {endOf(pos() + 1), ";"}}});
     reports().forgetUnread();
     take();
@@ -84,10 +84,10 @@ bool WrongSigns::operandBehindSemicolon() {
 void WrongSigns::dropEmptyParentheses() {
     const SourceRange both{range(pos()).begin, range(pos() + 1).end};
     if (kind() == K::LeftParen)
-        fix(reportAt(Code::UnexpectedToken, both, {"'()'", "no parentheses after the name of data"}), both,
+        fix(reportAt(say::UnexpectedToken, both, {"'()'", "no parentheses after the name of data"}), both,
             "");
     else
-        fix(report(Code::ForeignSpelling, pos(),
+        fix(report(say::ForeignSpelling, pos(),
                    {std::string(textOf(pos())), "'(' before the arguments of a function"}),
             both, "()", false);
     take();
@@ -100,7 +100,7 @@ void WrongSigns::expectColonOfDefault() {
     constexpr TokenSet kForColon = {K::KwThen, K::Equal, K::Assign, K::Comma, K::Semicolon, K::Dot};
     const bool other = kForColon.has(kind()) && !startsLine(pos()) && startsLine(pos() + 1);
     const SourceRange place = startsLine(pos()) ? endOf(pos() - 1) : range(pos());
-    fix(reportAt(Code::UnexpectedToken, place, {describe(pos()), "':'"}),
+    fix(reportAt(say::UnexpectedToken, place, {describe(pos()), "':'"}),
         other && kind() != K::KwThen ? range(pos()) : endOf(pos() - 1), ":");
     if (other) take();
 }

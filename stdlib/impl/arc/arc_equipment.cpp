@@ -24,7 +24,7 @@ bool isAttribute(std::string name, std::string_view wanted) {
     return rapid::config::sameName(name, wanted);
 }
 
-/// What the equipment of one system says: PROC.cfg has types ARC_EQUIP... with an instance for each system, in order.
+/// The equipment of one system: PROC.cfg has types ARC_EQUIP... with an instance for each system, in order.
 std::vector<const CfgAttribute*> attributesOf(const Controller& controller, int system) {
     constexpr std::string_view kTypes = "ARC_EQUIP";
     std::vector<const CfgAttribute*> found;

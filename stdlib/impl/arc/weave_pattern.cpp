@@ -16,7 +16,7 @@ int kindOf(float value, int most) {
                : -1;
 }
 
-/// What is wrong with the pattern, or null.
+/// The error of the pattern, or null.
 const char* problemOf(const motion::WeavePattern& p) {
     for (const double number : {p.length, p.width, p.height, p.dwellLeft, p.dwellCenter, p.dwellRight,
                                 p.direction, p.tilt, p.orientation, p.bias})

@@ -1,5 +1,5 @@
 #pragma once
-// What weavedata mean for the path.
+// The effect of weavedata on the path.
 
 #include "runtime/host/controller.h"
 #include "runtime/motion/weaving.h"

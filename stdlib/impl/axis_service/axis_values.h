@@ -1,5 +1,5 @@
 #pragma once
-// What can be measured of one axis, of the robot or of an external unit.
+// Measured values of one axis, of the robot or of an external unit.
 
 #include "runtime/host/controller.h"
 

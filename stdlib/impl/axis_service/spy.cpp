@@ -53,7 +53,7 @@ class SourceLines {
     std::map<std::string, std::vector<std::string>> files_;
 };
 
-/// Stands between the tasks and the debugger while it records. A service of the controller.
+/// Receives the stops of tasks before the debugger while it records. A service of the controller.
 class Spy final : public StepHook {
   public:
     bool isOn() const { return isOn_; }

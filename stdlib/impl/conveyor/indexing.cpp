@@ -79,7 +79,7 @@ void resetIndexing(Controller& controller) {
 
 extern "C" {
 
-/// What the data say is not known: step, speed and input are settings of the simulated conveyor.
+/// The meaning of the data is not known: step, speed and input are settings of the simulated conveyor.
 Status rt_IndCnvInit(TaskCore* task, Handle* MechUnit, Handle*) {
     Status status = kOk;
     Conveyor* conveyor = lib::conveyorUnit(task, *MechUnit, status);

@@ -22,7 +22,7 @@ Status placeOnConveyor(TaskCore* task, std::string_view unit, motion::FrameSetup
 Status activateConveyor(TaskCore* task, MechanicalUnit& unit, bool active);
 
 /// Before the order of a movement: lets it follow the object that carries its work object. Where the robot changes from one object
-/// to another, or to or from a work object that stands, it waits until the robot is in position, relative to what it follows.
+/// to another, or to or from a work object at rest, it waits until the robot is in position, relative to what it follows.
 Status trackConveyor(TaskCore* task, const data::Wobjdata& workObject, motion::MoveCommand& command);
 /// A movement that follows the object is not finished.
 bool isFollowed(const MotionDriver& motion, const motion::TrackedObject& object);

@@ -67,7 +67,7 @@ Status copyData(TaskCore* task, const DebugVariable& object, void* value, const 
 
 namespace {
 
-/// A data object asked for by name, from where the program stands.
+/// A data object that is looked up by name, from the program pointer.
 class Lookup {
   public:
     Lookup(TaskCore* core, const String& object)
@@ -160,7 +160,7 @@ using namespace rt;
 
 namespace {
 
-/// A signal variable gets the configured signal of that name, which is no data object.
+/// A signal variable gets the configured signal of that name, which is not a data object.
 bool readSignal(TaskCore* task, const String& name, void* value, const TypeDesc& type) {
     const std::string_view kind(type.baseName);
     if (type.kind != DescKind::Handle || !kind.starts_with("signal")) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a data object lies that a program names by a text (GetDataVal, SetDataVal, SetAllDataVal).
+// The location of a data object that a program names by a text (GetDataVal, SetDataVal, SetAllDataVal).
 
 #include "runtime/debug/debug_data.h"
 #include "runtime/host/controller.h"
@@ -10,7 +10,7 @@
 
 namespace rt::lib {
 
-/// What a datapos refers to.
+/// The object that a datapos refers to.
 struct DataPosition {
     std::string module;
     std::string routine; ///< "" for module data

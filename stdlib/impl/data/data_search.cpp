@@ -207,7 +207,7 @@ Status rt_SetAllDataVal(TaskCore* task, const String* Type, const String* TypeMo
     return kOk;
 }
 
-/// The compiler puts the name of the caller's data object where the parameter stands; null: there is none.
+/// The compiler puts the name of the caller's data object in place of the parameter; null: there is none.
 Status rt_ArgName(TaskCore* task, String* result, void* Parameter, const TypeDesc*, float* ErrorNumber) {
     *result = String{};
     if (ErrorNumber != nullptr) *ErrorNumber = 0;

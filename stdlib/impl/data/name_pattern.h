@@ -12,7 +12,7 @@ class NamePattern {
   public:
     /// The pattern that every name matches.
     NamePattern() = default;
-    /// False when the text is no pattern; the object then matches nothing.
+    /// False when the text is not a pattern; the object then matches nothing.
     bool parse(std::string_view text);
     /// Names of up to 63 characters.
     bool matches(std::string_view name) const;

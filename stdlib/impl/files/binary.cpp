@@ -20,7 +20,7 @@ using lib::Reading;
 
 namespace {
 
-/// What WriteAnyBin writes: this head, then the value as RAPID text.
+/// The format of WriteAnyBin: this head, then the value as RAPID text.
 struct AnyHead {
     std::array<char, 4> mark = {'R', 'A', 'n', 'y'};
     uint32_t size = 0;  ///< of the text

@@ -47,7 +47,7 @@ std::string OpenFile::write(std::string_view bytes) {
     return problem;
 }
 
-/// What cannot be handed over stays pending.
+/// Data that cannot be written stay pending.
 std::string OpenFile::send() {
     std::size_t sent = 0;
     int problem = 0;

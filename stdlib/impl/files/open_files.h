@@ -63,7 +63,7 @@ Status writeTo(TaskCore* task, Handle handle, std::string_view bytes);
 class Reading {
   public:
     Reading(TaskCore* task, Handle handle, const float* time);
-    /// What is wrong with the file or \Time; kOk: it can be read.
+    /// The error of the file or \Time; kOk: it can be read.
     Status status() const { return status_; }
     OpenFile& file() { return *file_; }
     /// Bytes that can be read now.

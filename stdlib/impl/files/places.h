@@ -16,7 +16,7 @@ using LastLink = Volumes::LastLink;
 std::string shown(std::string_view text);
 /// The place need not exist; its folder must.
 Status placeOf(TaskCore* task, const String& path, LastLink last, VolumePlace& place);
-/// What is known of an existing file or directory, with everything that programs have written to it.
+/// The attributes of an existing file or directory, with everything that programs have written to it.
 Status statusOf(TaskCore* task, const String& path, struct stat& status);
 /// Raises ERR_FILEACC: "HOME:/x cannot be removed: ...". `problem`: number of an error of the host.
 Status accessError(TaskCore* task, const String& path, std::string_view verb, int problem);

@@ -62,7 +62,7 @@ struct Item {
     bool remains = false; ///< more than fits into a string: the rest comes with the next item
 };
 
-/// Reads up to the next delimiter, which is passed over, and at most 80 bytes.
+/// Reads up to the next delimiter, which is skipped, and at most 80 bytes.
 Status readItem(Reading& reading, const Delimiters& set, bool removeCr, Item& item) {
     // A carriage return that is removed and the delimiter after it do not count.
     const std::size_t looked = kMost + (removeCr ? 2 : 1);

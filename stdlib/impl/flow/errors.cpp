@@ -181,7 +181,7 @@ Status rt_RaiseToUser(TaskCore* task, bool Continue, bool BreakOff, const float*
 Status rt_raiseToUser(TaskCore* task, int32_t* result, bool Continue, bool BreakOff,
                       const float* ErrorNumber) {
     Task& owner = taskOf(task);
-    // Errors of the instruction itself go to the system handler: it stands in an error handler.
+    // Errors of the instruction itself go to the system handler: it is in an error handler.
     if (Continue == BreakOff)
         return lib::fail(task, err::ERR_ARGVALERR, "RaiseToUser needs \\BreakOff or \\Continue");
     const float number = ErrorNumber ? *ErrorNumber : static_cast<float>(owner.errorNumber);

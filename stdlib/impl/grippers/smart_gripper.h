@@ -23,10 +23,10 @@ class SmartGripper {
     bool isCalibrated() const { return isCalibrated_; }
     /// The present position becomes 0 mm.
     void calibrate();
-    /// As far as calibration tells.
+    /// As far as calibration shows.
     double position() const;
     bool isMoving() const { return arrival_ != 0; }
-    /// Begins to move: to a position, or as far as the fingers get. What they meet stops them. A movement in progress ends.
+    /// Begins to move: to a position, or as far as the fingers get. An object between them stops them. A movement in progress ends.
     void moveTo(double position);
     void moveInward();
     void moveOutward();

@@ -1,5 +1,5 @@
 #pragma once
-// What the instructions of EGM have in common: the process that a variable names, and what must hold before.
+// The common part of the instructions of EGM: the process that a variable names, and the preconditions.
 
 #include "stdlib/impl/guided_motion/egm_process.h"
 

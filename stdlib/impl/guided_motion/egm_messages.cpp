@@ -49,7 +49,7 @@ struct Field {
     double real() const { return std::bit_cast<double>(value); }
 };
 
-/// Field by field; isBroken() afterwards when the bytes are no message.
+/// Field by field; isBroken() afterwards when the bytes are not a message.
 class Reader {
   public:
     explicit Reader(std::string_view bytes) : rest_(bytes) {}

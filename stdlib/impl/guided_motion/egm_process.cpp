@@ -95,7 +95,7 @@ void EgmProcess::wake() {
 
 void EgmProcess::pause(bool paused) {
     isPaused_ = paused;
-    // What was not answered while the program stood does not count.
+    // Questions that were not answered while the program was stopped do not count.
     lastAnswer_ = controller_.scheduler().now();
     wake();
 }

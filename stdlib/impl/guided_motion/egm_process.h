@@ -42,7 +42,7 @@ class EgmProcess {
     /// EGMSetup...: a new source of data; `partner` null: one that never sends anything. `timeout`: \CommTimeout.
     void connect(GuidanceMode mode, std::unique_ptr<Partner> partner, const ExternalMotionData& defaults,
                  Time timeout);
-    /// \LATR: the sensor of path corrections looks ahead of the TCP.
+    /// \LATR: the sensor of path corrections measures in front of the TCP.
     void setLookAhead(bool looksAhead) { looksAhead_ = looksAhead; }
     /// EGMReset: the guidance ends where the robot is.
     void disconnect();

@@ -60,7 +60,8 @@ Status motionData(TaskCore* task, std::string_view name, lib::ExternalMotionData
             (void)instance->number("ext_motion_level", level);
             (void)instance->number("ext_motion_filter_bandwidth", data.filterHz);
             (void)instance->number("ext_motion_Kp", data.gain);
-            (void)instance->number("ext_motion_ramp_time", data.rampTime);
+            if (!instance->number("ramp_time", data.rampTime))
+                (void)instance->number("ext_motion_ramp_time", data.rampTime);
             if (level == 0) data.filterHz = 0;
             return kOk;
         }
@@ -118,9 +119,11 @@ Status setUpSignals(TaskCore* task, const SetupArguments& args, const std::array
                  });
 }
 
-/// The device of SIO.cfg: COM_TRP of type UDPUC. A colon after its name does not count.
+/// The device of SIO.cfg: UDPUC_HOST (RobotWare 7), or COM_TRP of type UDPUC. A colon after its name does not count.
 const CfgInstance* findDevice(Controller& controller, std::string_view name) {
     if (name.ends_with(':')) name.remove_suffix(1);
+    for (const CfgInstance* instance : controller.instances("SIO", "UDPUC_HOST"))
+        if (isNamed(*instance, name)) return instance;
     for (const CfgInstance* instance : controller.instances("SIO", "COM_TRP"))
         if (isNamed(*instance, name) && rapid::config::sameName(instance->text("type"), "UDPUC"))
             return instance;
@@ -191,7 +194,8 @@ Status rt_EGMSetupUC(TaskCore* task, Handle* MecUnit, Handle* EGMid, const Strin
             if (device == nullptr)
                 return lib::fail(
                     task, err::ERR_UDPUC_COMM,
-                    fmt::format("SIO.cfg has no COM_TRP of type UDPUC named \"{}\"", UCDevice->view()));
+                    fmt::format("SIO.cfg has no UDPUC_HOST, and no COM_TRP of type UDPUC, named \"{}\"",
+                                UCDevice->view()));
             net::Address address;
             uint16_t localPort = 0;
             if (const Status status = addressOf(task, *device, address, localPort)) return status;

@@ -15,7 +15,7 @@ constexpr double kSeconds = static_cast<double>(GuidedArm::kPeriod) * 1e-9;
 constexpr double kNear = 1e-6; // deg: an axis that is so near to its goal is put there
 constexpr double kFar = 1e-3;  // deg: a limit that cuts off less is not reported
 
-/// What one axis may do: deg or mm, s.
+/// The limits of one axis: deg or mm, s.
 struct AxisLimits {
     double lower, upper, speed, acceleration;
 };

@@ -13,7 +13,7 @@ struct Window {
     double low = 0, high = 0;
 };
 
-/// What EGMActJoint and EGMActPose set, with the external motion data of the configuration.
+/// The settings of EGMActJoint and EGMActPose, with the external motion data of the configuration.
 struct GuidanceSettings {
     GuidanceMode mode = GuidanceMode::Joint;
     motion::FrameSetup frames;
@@ -25,7 +25,7 @@ struct GuidanceSettings {
     double maxDeviation = 1000;             ///< deg from where the guidance began
 };
 
-/// What EGMRunJoint and EGMRunPose ask for.
+/// The request of EGMRunJoint and EGMRunPose.
 struct GuidanceOrder {
     bool rampDown = false;            ///< back to the start at the end
     bool continues = false;           ///< \NoWaitCond: the condition does not end the guidance

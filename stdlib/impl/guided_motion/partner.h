@@ -14,7 +14,7 @@ namespace rt::lib {
 
 enum class GuidanceMode : uint8_t { Joint, Pose, PathCorrection };
 
-/// What a partner asks for. Parts that are absent keep their last value.
+/// The target of a partner. Parts that are absent keep their last value.
 struct SensorData {
     /// Each axis that is asked for, by its number from 1 (index 0: axis 1, index 6: axis 7 of a seven-axis arm), deg.
     std::array<std::optional<double>, 7> joints{};
@@ -29,7 +29,7 @@ struct SensorData {
     std::array<double, 6> jointSpeed{};
 };
 
-/// What a partner hears of the robot.
+/// The state of the robot that is sent to a partner.
 struct RobotData {
     motion::JointTarget feedback, planned;  ///< deg, mm
     motion::Pose feedbackPose, plannedPose; ///< in the correction frame

@@ -28,7 +28,7 @@ struct AnalogOrder {
     float* interrupt = nullptr;
 };
 
-/// What is compared with each sample. Values are num: what RAPID sees of a signal.
+/// The value that is compared with each sample: a num, as RAPID sees the signal.
 struct Watch {
     AnalogOrder order;
     float reference = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the instructions that order interrupts share (manual 1.11).
+// The common part of the instructions that order interrupts (manual 1.11).
 
 #include "runtime/host/controller.h"
 

@@ -1,4 +1,4 @@
-// Manual 1.9: signal variables and what stands behind them.
+// Manual 1.9: signal variables and the signals that they refer to.
 
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/io/signals.h"

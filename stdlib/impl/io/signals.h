@@ -11,7 +11,7 @@ namespace rt::lib {
 
 /// kOk, or the error raised; `handle` is the signal concerned.
 Status ioStatus(TaskCore* task, IoResult result, Handle handle);
-/// The signal behind a variable; -1 and ERR_NO_ALIASIO_DEF raised (in `status`) when there is none.
+/// The signal that a variable refers to; -1 and ERR_NO_ALIASIO_DEF raised (in `status`) when there is none.
 SignalId signalOf(TaskCore* task, Handle handle, Status& status);
 /// The same, and the signal can be used now; else ERR_NORUNUNIT or ERR_SIG_NOT_VALID raised as well.
 SignalId usableSignal(TaskCore* task, Handle handle, Status& status);
@@ -21,7 +21,7 @@ Status readSignal(TaskCore* task, Handle handle, double& value);
 /// kOk when a group may get this value as far as it is a whole number; else ERR_ARGVALERR.
 Status checkWhole(TaskCore* task, double value);
 
-/// Name of the signal behind a handle; empty when there is none.
+/// Name of the signal that a handle refers to; empty when there is none.
 std::string signalName(const IoSystem& io, Handle handle);
 /// 0 when there is no signal of that name.
 Handle signalNamed(const IoSystem& io, const std::string& name);

@@ -83,7 +83,7 @@ struct RapidcLoader {
     UnitLoader loader;
 };
 
-/// Who compiles and maps modules; null when the program cannot have any.
+/// The object that compiles and maps modules; null when the program cannot have any.
 ModuleLoader* loaderOf(Controller& controller) {
     ModuleUnits& all = units(controller);
     const ProgramDesc& program = controller.program();

@@ -1,4 +1,4 @@
-// Manual 1.6: StartLoad, WaitLoad, CancelLoad. The file is read when loading starts; the task goes on meanwhile.
+// Manual 1.6: StartLoad, WaitLoad, CancelLoad. The file is read when loading starts; the task continues meanwhile.
 
 #include "stdlib/impl/modules/loading.h"
 #include "stdlib/impl/support/fail.h"

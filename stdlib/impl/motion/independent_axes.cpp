@@ -1,7 +1,7 @@
 // Manual 1.8, 2.2.4: independent axes: axis 6 of the robot, and external axes that MOC.cfg marks (ARM independent_joint_on).
 // IndReset is also for axis 4 of IRB 1600, 2600 and 4600. Where the manual is silent:
 // IndRMove without a direction takes the short way; IndReset without a reference keeps the position; it waits until the robot
-// stands at a stop point. VelSet and the speed override count as they are when a movement is ordered or the program started.
+// is at a stop point. VelSet and the speed override count as they are when a movement is ordered or the program started.
 // WaitRob looks at the path of the arm only; WZLimSup stops a turning axis in the zone, not before.
 
 #include "stdlib/impl/motion/independent_axes.h"
@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t kAxis4 = 3, kAxis6 = 5; // from 0
 constexpr double kTurn = 360;
 
-/// What the axis is to do; kept while the program is stopped.
+/// The order of the axis; kept while the program is stopped.
 struct IndependentOrder {
     bool endless = false;
     double goal = 0;  ///< deg, mm
@@ -128,7 +128,7 @@ double positionOf(const motion::MotionSystem& arm, const motion::GroupAxis& axis
     return axis.isExternal ? here.extax[axis.index] : here.robax[axis.index];
 }
 
-/// It stands, and is not about to move.
+/// It is at rest, and is not about to move.
 bool isResting(const motion::MotionSystem& arm, const motion::GroupAxis& axis) {
     return momentOf(arm, axis).speed == 0 && arm.independent(axis)->settledAt() <= secondsNow(arm);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What is kept between two processes (--state) for each motion group.
+// The state of a motion group that is kept between two processes (--state).
 
 #include "runtime/debug/state_keepers.h"
 #include "runtime/host/controller.h"

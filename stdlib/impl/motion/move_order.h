@@ -1,5 +1,5 @@
 #pragma once
-// What all movement instructions share: their common arguments, and how a move is ordered (manual 1.8).
+// The common part of all movement instructions: their arguments, and how a move is ordered (manual 1.8).
 
 #include "stdlib/impl/motion/state.h"
 
@@ -36,7 +36,7 @@ motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target
                                  const float* id);
 
 /// Completes the command with what is common, orders it with what is to be done on its path, and waits until the program
-/// may go on.
+/// may continue.
 Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArguments& arguments,
                  std::vector<PathAction> actions = {});
 

@@ -48,7 +48,7 @@ void aimAt(motion::MoveCommand& command, const motion::MotionSystem& arm, const 
     command.target.pose = command.target.pose * offset;
 }
 
-/// The circle backward from where its arm stands, without an offset.
+/// The circle backward from where its arm is, without an offset.
 motion::MoveCommand circleBack(const motion::MoveCommand& recorded, const motion::MotionSystem& arm,
                                const motion::JointTarget& from, const motion::JointTarget& here) {
     motion::MoveCommand command = recorded;

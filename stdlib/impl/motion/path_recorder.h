@@ -24,8 +24,8 @@ class PathRecorder {
     bool isRecording() const { return recording_; }
     Handle newId() { return ++lastId_; }
 
-    /// The position to go back to: that of `id`, for 0 the latest named one that is not where the arm is. Nothing when there
-    /// is no way back to it.
+    /// The position to go back to: that of `id`, for 0 the latest named one that is not where the arm is. Nothing when no
+    /// way leads back to it.
     std::optional<std::size_t> goalBack(const motion::MotionSystem& arm, Handle id) const;
     /// The position to go forward to: that of `id`, for 0 where the way back began.
     std::optional<std::size_t> goalForward(Handle id) const;

@@ -1,6 +1,6 @@
 // Manual 1.8: path recorder. Where the manual is silent: without \ID the way back leads to the latest PathRecStart before the
 // arm, without the need of a path level of its own as long as the path of the present level is finished. Movements are
-// executed again with their types, zones and tools; lines and circles begin where the arm stands, which after a corner is up
+// executed again with their types, zones and tools; lines and circles begin where the arm is, which after a corner is up
 // to its zone beside the line. Nothing that was to be done on the path (TriggIO ...) is done again. The recording does not
 // outlive the process.
 

@@ -39,7 +39,7 @@ Status rt_MaxRobSpeed(TaskCore* task, float* result) {
     return kOk;
 }
 
-/// What vmax has for these speeds.
+/// The value of vmax for these speeds.
 Status rt_MaxRobReorientSpeed(TaskCore*, float* result) {
     *result = 500;
     return kOk;

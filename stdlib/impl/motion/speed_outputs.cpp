@@ -9,15 +9,15 @@
 namespace rt::lib {
 namespace {
 
-/// The speed of a movement is exact to some millionths: a part of the range of an output that is no excess.
+/// The speed of a movement is exact to some millionths: a part of the range of an output that is not an excess.
 constexpr double kNoise = 1e-5;
 
-/// Speed of the TCP `lag` from now. What comes behind the end of the movement in progress is not planned yet: the arm stops
+/// Speed of the TCP `lag` from now. The path after the movement in progress is not planned yet: the arm stops
 /// there.
 double speedIn(const motion::MotionSystem& arm, Time lag) {
     if (!arm.isMoving()) return 0;
     const auto end = arm.reachTime(arm.currentMove());
-    if (lag == 0 || !end) return arm.current().tcpSpeed; // nothing is known ahead of an arm that brakes
+    if (lag == 0 || !end) return arm.current().tcpSpeed; // the future of a braking arm is not known
     const Time then = addTime(arm.now(), lag);
     return then >= *end ? 0 : arm.sample(then).tcpSpeed;
 }

@@ -13,7 +13,7 @@ struct SpeedScale {
 };
 
 /// From now on the output is `scale` times the speed of the TCP, through the movements that follow and 0 while the arm
-/// stands, until another scale is given or the program begins anew. Values outside its limits are set to the limit.
+/// is at rest, until another scale is given or the program begins anew. Values outside its limits are set to the limit.
 void followSpeed(Task& task, Handle output, const SpeedScale& scale);
 /// The program begins anew: outputs that follow the speed are set to 0.
 void endSpeedOutputs(Task& task);

@@ -1,5 +1,5 @@
 #pragma once
-// What motion instructions have in common: the settings in force (manual 1.7), frames, errors.
+// The common part of motion instructions: the settings in force (manual 1.7), frames, errors.
 
 #include "runtime/host/controller.h"
 
@@ -49,7 +49,7 @@ struct MotionState {
 MotionState& motionState(TaskCore* task);
 /// SYS_RESET: the default settings; tool and work object stay.
 void restoreDefaults(Task& task);
-/// What the controller does when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
+/// The settings when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
 /// The program begins anew: TriggStopProc supervises no more.
 void endStopSupervision(Task& task);

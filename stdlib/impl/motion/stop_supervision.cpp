@@ -1,5 +1,5 @@
 // TriggStopProc (manual 1.8): at a stop of the program the values of process signals are noted, when it begins and when the
-// arm stands; then the signals are set to 0. What a RESTART routine needs to begin a process again.
+// arm is at rest; then the signals are set to 0. The values that a RESTART routine needs to begin a process again.
 
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/state.h"

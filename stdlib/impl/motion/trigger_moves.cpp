@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 using namespace rt;
 using Actions = std::vector<PathAction>;
@@ -31,11 +32,30 @@ struct TriggerArguments {
     std::array<const Handle*, 7> others;
 };
 
+/// Event Preset Time of MOC.cfg in s: how long before its place the robot knows of an event. None: without a limit.
+std::optional<double> eventPresetTime(const Controller& controller) {
+    double time = 0;
+    for (const char* type : {"MOTION_SYSTEM", "MOTION_PLANNER"})
+        for (const CfgInstance* instance : controller.instances("MOC", type))
+            if (instance->number("event_preset_time", time)) return time;
+    return {};
+}
+
+Status checkLag(TaskCore* task, double lag) {
+    if (lag == 0) return kOk;
+    const std::optional<double> preset = eventPresetTime(taskOf(task).controller());
+    if (!preset || lag <= *preset) return kOk;
+    return lib::failWith(
+        task, err::ERR_DIPLAG_LIM,
+        "\\DipLag of TriggSpeed is {} s, but event_preset_time of MOC.cfg is {} s: enlarge it", lag, *preset);
+}
+
 /// Its signal can be used, and the output of a TriggSpeed can follow the programmed speed.
 Status checkSignal(TaskCore* task, const lib::TriggerDefinition& trigger, const data::Speeddata& speed) {
     Status status = kOk;
     if (trigger.signal != 0) (void)lib::usableSignal(task, trigger.signal, status);
     if (status != kOk || trigger.kind != lib::TriggerDefinition::Kind::Speed) return status;
+    if ((status = checkLag(task, trigger.dipLag)) != kOk) return status;
     // As a num: 0.1 times 100 is 10.
     return lib::checkOutput(task, trigger.signal, static_cast<float>(trigger.value) * speed.v_tcp);
 }
@@ -54,7 +74,7 @@ Status addTrigger(TaskCore* task, Handle variable, const char* name, const data:
     return kOk;
 }
 
-/// Elements without contents are passed over.
+/// Elements without contents are skipped.
 Status addArray(TaskCore* task, const TriggerArguments& args, const data::Speeddata& speed,
                 Actions& actions) {
     for (const Handle* other : args.others)

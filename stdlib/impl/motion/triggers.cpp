@@ -81,7 +81,7 @@ void execute(Task& task, const TriggerDefinition& trigger) {
 /// A ramp is a flight of this many equal steps, each at its own place of the path.
 constexpr int kRampSteps = 50;
 
-/// The place of a step that lies `mm` behind the trigger's.
+/// The place of a step `mm` after that of the trigger.
 motion::PathTrigger behind(motion::PathTrigger place, double mm) {
     if (place.fromStart || place.nextMove) {
         place.amount += mm;
@@ -117,7 +117,7 @@ void addRamp(Task* owner, const TriggerDefinition& ramp, std::vector<PathAction>
 
 constexpr float kLongestExtension = -0.1F; // s, ScaleLag of TriggSpeed
 
-/// Where a trigger is, as the instructions that define one say it.
+/// The place of a trigger, as the instructions that define one give it.
 struct Place {
     float distance = 0;
     bool start = false, next = false, time = false;
@@ -136,7 +136,7 @@ Status setPlace(TaskCore* task, TriggerDefinition& trigger, const Place& place) 
     return kOk;
 }
 
-/// \Mode tells how to treat corner paths; the robot stops at every point, so the modes do not differ.
+/// \Mode selects how to treat corner paths; the robot stops at every point, so the modes do not differ.
 Status define(TaskCore* task, Handle* variable, const TriggerDefinition& trigger) {
     *variable = lib::triggerStore(task).intern(trigger);
     return kOk;

@@ -20,7 +20,7 @@ struct TriggerDefinition {
         Interrupt, ///< TriggInt
         Ramp,      ///< TriggRampAO: brings `signal` to `value` along `rampLength`
         Speed,     ///< TriggSpeed: `signal` is `value` times the speed of the TCP from here on
-        Check,     ///< TriggCheckIO: the interrupt occurs unless `signal` stands in `relation` to `value`
+        Check,     ///< TriggCheckIO: the interrupt occurs unless `signal` is in `relation` to `value`
     };
     Kind kind = Kind::Output;
     motion::PathTrigger place;

@@ -1,7 +1,7 @@
 #pragma once
 // World zones (manual 2.9): volumes in which the robot sets an output or before which it is stopped. The TCP of the active
 // tool is looked at in world coordinates, or all axes. While the arm moves it is looked at every millisecond, and the moment
-// of a change in between is searched; nothing happens while it stands.
+// of a change in between is searched; nothing happens while it is at rest.
 
 #include "stdlib/impl/motion/zone_shapes.h"
 

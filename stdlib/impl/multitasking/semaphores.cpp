@@ -13,7 +13,7 @@ using namespace rt;
 
 namespace {
 
-constexpr Time kPoll = 10 * kMillisecond; // nothing tells of changes of a persistent
+constexpr Time kPoll = 10 * kMillisecond; // changes of a persistent are not signalled
 
 bool take(bool* object) {
     if (*object) return false;

@@ -29,7 +29,7 @@ struct Arrival {
     bool released = false;
 };
 
-/// The synchronization points of a controller; one that nobody waits at is not there.
+/// The synchronization points of a controller; a point exists while a task waits at it.
 struct SyncPoints {
     std::vector<Arrival*> arrivals;
     WaitQueue changed;

@@ -77,7 +77,7 @@ class Buttons {
     const std::vector<std::string>& texts() const { return texts_; }
     /// The button (from 0) that an answer names by its number or its text; -1 when it names none.
     int named(std::string_view answer) const;
-    /// What the program gets for it: a btnres constant, or its number from 1.
+    /// The value that the program gets for it: a btnres constant, or its number from 1.
     float result(int button) const;
     /// Without a button only a break can end a dialog: ERR_ARGVALERR when there is none either.
     Status requireEnd(TaskCore* task, const Breaks& breaks) const;

@@ -11,7 +11,7 @@
 
 namespace rt::lib {
 
-/// A signal of an equipment; "{}" in the usual name stands for the number of the equipment.
+/// A signal of an equipment; "{}" in the usual name is replaced with the number of the equipment.
 struct ProcessSignal {
     enum class Kind : uint8_t { Output, Reference, Input };
     const char* attribute; ///< of PROC.cfg, without regard to case and underscores
@@ -19,7 +19,7 @@ struct ProcessSignal {
     Kind kind; ///< digital output; analog or group output; digital input
 };
 
-/// Signals that nobody defines are not there: outputs are not set, and the process goes on as if all were well.
+/// Undefined signals are left out: outputs are not set, and the process continues as if all were well.
 class ProcessSignals {
   public:
     /// Instance `number`, from 1, of the types of PROC.cfg that begin with `types`. Returns what is wrong, or "".

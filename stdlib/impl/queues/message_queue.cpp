@@ -109,7 +109,7 @@ void orderMessages(Task& task, int number, const std::string& type) {
         if (const auto order = own.orders.find(type); order != own.orders.end() && order->second == number)
             own.orders.erase(order);
     };
-    // Messages wait in the queue while the program is stopped, and so does the interrupt that tells of them.
+    // Messages wait in the queue while the program is stopped, and so does the interrupt that reports them.
     task.interrupts().order(number, disarm, false, true, {kMessageOrder, type, {}});
     own.orders[type] = number;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // RAPID message queues (manual 1.10): a queue for each task, messages that carry a value of any type, interrupts on
-// reception. What is decided where the manual is silent: README.md.
+// reception. Decisions where the manual is silent: README.md.
 
 #include "runtime/host/controller.h"
 #include "runtime/sched/wait_queue.h"
@@ -57,14 +57,14 @@ class MessageQueues {
 
     /// Queue identity of a task; queues count from 1.
     Handle slotOf(const Task& task) const;
-    /// Null for 0 and what is no identity.
+    /// Null for 0 and for a value that is not an identity.
     MessageQueue* find(Handle slot);
     /// Without regard to case; 0 when there is no such queue.
     Handle findByName(std::string_view name) const;
 
     enum class Sent : uint8_t { Ok, TooLarge, Full };
     /// Delivers to the waiting RMQSendWait, to the queue (posting the interrupt ordered for the type), or, when a task
-    /// in interrupt mode has ordered none, to nobody: an event tells.
+    /// in interrupt mode has not ordered one, to nobody: an event reports it.
     Sent send(MessageQueue& target, Message message);
 
     /// Keeps a message for a variable of type rmqmessage; the newest kKept of a controller.

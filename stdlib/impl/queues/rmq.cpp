@@ -46,7 +46,7 @@ Status timedOut(TaskCore* task) {
     return lib::fail(task, err::ERR_RMQ_TIMEOUT, "no message came in time");
 }
 
-/// The queue that a slot stands for; null and ERR_RMQ_INVALID raised.
+/// The queue of a slot; null and ERR_RMQ_INVALID raised.
 MessageQueue* receiver(TaskCore* task, Handle slot, Status& status) {
     MessageQueue* queue = queuesOf(task).find(slot);
     if (queue != nullptr) return queue;

@@ -107,8 +107,8 @@ Status unpackFloat(TaskCore* task, const data::Rawbytes& container, uint32_t ind
 Status unpackText(TaskCore* task, const data::Rawbytes& container, uint32_t index, float length,
                   String& text) {
     uint32_t count = 0;
-    if (!lib::toIndex(length, count) || count > kStringCapacity)
-        return lib::fail(task, err::ERR_ARGVALERR, "\\ASCII must be a number of characters from 1 to 80");
+    if (length != 0 && (!lib::toIndex(length, count) || count > kStringCapacity))
+        return lib::fail(task, err::ERR_ARGVALERR, "\\ASCII must be a number of characters from 0 to 80");
     if (index - 1 + count > container.length) return lib::beyondValid(task, index, count, container.length);
     text.assign({reinterpret_cast<const char*>(container.bytes) + index - 1, count});
     return kOk;

@@ -24,7 +24,7 @@ inline void setLength(data::Rawbytes& container, std::size_t length) {
     container.length = fits;
 }
 
-/// Replaces the contents by the bytes given, at most the capacity.
+/// Replaces the contents with the bytes given, at most the capacity.
 inline void assign(data::Rawbytes& container, std::span<const uint8_t> bytes) {
     const std::size_t count = std::min<std::size_t>(bytes.size(), kRawBytesCapacity);
     if (count > 0) std::memmove(container.bytes, bytes.data(), count);

@@ -80,7 +80,7 @@ SimulatedSensor* exchangeArray(TaskCore* task, const String* device, int32_t cou
     return nullptr;
 }
 
-/// What IVarValue has ordered.
+/// An order of IVarValue.
 struct VariableWatch {
     SimulatedSensor* sensor = nullptr;
     int number = 0, interrupt = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the configuration says of a servo gun (MOC.cfg, SG_PROCESS).
+// The configuration of a servo gun (MOC.cfg, SG_PROCESS).
 
 #include "runtime/host/controller.h"
 

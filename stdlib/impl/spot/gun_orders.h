@@ -1,5 +1,5 @@
 #pragma once
-// What is done with a gun at a place: calibration, closing with a force.
+// The actions of a gun at a place: calibration, closing with a force.
 
 #include "stdlib/impl/spot/spot_gun.h"
 

@@ -15,7 +15,7 @@ bool isAsciiByte(char byte) {
     return static_cast<uint8_t>(byte) < 0x80;
 }
 
-/// Where positions are offsets. The first place of a character in `from` counts. `result` may be one of the texts: the
+/// Positions are offsets. The first place of a character in `from` counts. `result` may be one of the texts: the
 /// table holds all that is needed of the others.
 void mapAscii(String& result, std::string_view text, std::string_view from, std::string_view to) {
     uint8_t table[128];

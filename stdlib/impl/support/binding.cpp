@@ -1,4 +1,4 @@
-// What compiled code leaves to be settled at run time: descriptions of conformant arrays, missing natives.
+// Values that compiled code leaves to be settled at run time: descriptions of conformant arrays, missing natives.
 
 #include "runtime/abi/support_natives.h"
 #include "runtime/host/controller.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Module data behind an address, and by name for what a later process must find again (--state).
+// Module data by address, and by name for a later process that must find them again (--state).
 
 #include "runtime/host/controller.h"
 

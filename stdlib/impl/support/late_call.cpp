@@ -22,7 +22,7 @@ using lib::CalledName;
 
 namespace {
 
-/// What absent arguments are described by: no dimensions.
+/// The description of absent arguments: no dimensions.
 const TypeDesc kAbsent = {"", "", DescKind::Other, 0, 0, {0, 0, 0}, nullptr, nullptr, nullptr};
 
 /// So many objects of a type, in place as long as they are few.

@@ -9,7 +9,7 @@ namespace rt::lib {
 
 inline constexpr const char* kRelationNames = "the relation must be LT, LTEQ, EQ, NOTEQ, GTEQ or GT";
 
-/// Whether x stands in the relation (LT ... GT) to y; nothing when it is none of them.
+/// Whether x is in the relation (LT ... GT) to y; nothing when it is none of them.
 template <class T> std::optional<bool> related(T x, float relation, T y) {
     if (relation == k::LT) return x < y;
     if (relation == k::LTEQ) return x <= y;

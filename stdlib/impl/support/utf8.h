@@ -12,7 +12,7 @@
 
 namespace rt::lib {
 
-/// What follows `offset`, which is at most the size. Cannot throw as substr can: inlined natives do not.
+/// The text from `offset`, which is at most the size. Cannot throw as substr can: inlined natives do not.
 inline std::string_view rest(std::string_view text, size_t offset) {
     return {text.data() + offset, text.size() - offset};
 }
@@ -90,7 +90,7 @@ class Characters {
     std::string_view operator[](size_t i) const {
         return {text_ + begins_[i], static_cast<size_t>(begins_[i + 1] - begins_[i])};
     }
-    /// Where the character is; size() when it is not among them.
+    /// The position of the character; size() when it is not among them.
     size_t find(std::string_view character) const {
         size_t i = 0;
         while (i < size_ && !same((*this)[i], character))

@@ -26,7 +26,7 @@ struct ActiveNames {
     std::string tool, workObject;
 };
 
-/// Where the value in force is, its size, and its name.
+/// The place of the value in force, its size, and its name.
 struct Active {
     void* value = nullptr;
     std::size_t size = 0;

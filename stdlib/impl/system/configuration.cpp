@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace rt::lib {
@@ -17,7 +18,7 @@ bool isWord(const CfgAttribute& attribute, std::initializer_list<const char*> wo
     return false;
 }
 
-void addText(CfgInstance& instance, const char* name, std::string value) {
+void addText(CfgInstance& instance, const std::string& name, std::string value) {
     instance.attributes.push_back({name, {std::move(value)}, true, 0});
 }
 void addNumber(CfgInstance& instance, const std::string& name, double value) {
@@ -37,28 +38,19 @@ void addBaseFrame(CfgInstance& instance, const robot::Pose& base) {
     }
 }
 
-/// Base frame of the robot with that name; that of world when there is none.
-robot::Pose baseOf(Controller& controller, std::string_view robot) {
-    for (const auto& motion : controller.motions())
-        if (sameName(motion->unitName(), robot)) return motion->model().baseFrame;
-    return {};
+/// Axes of a robot: rax_1 to rax_6, and the seventh of arms that have it. Those that cannot move are not axes.
+constexpr std::size_t kRobotAxes = 7;
+
+bool hasAxis(const robot::RobotModel& model, std::size_t axis) {
+    return axis < model.upperDeg.size() && model.upperDeg[axis] != model.lowerDeg[axis];
 }
 
-/// Axes of the robot with that number, from 1: "rob2_3".
-void addArms(const robot::RobotModel& model, int number, CfgSection& arms, CfgSection& calibration) {
-    for (std::size_t i = 0; i < 6 && i < model.upperDeg.size() && model.upperDeg[i] != model.lowerDeg[i];
-         ++i) {
-        CfgInstance arm, motor;
-        for (CfgInstance* instance : {&arm, &motor})
-            addText(*instance, "name", fmt::format("rob{}_{}", number, i + 1));
-        addNumber(arm, "upper_joint_bound", model.upperDeg[i] * kRadians);
-        addNumber(arm, "lower_joint_bound", model.lowerDeg[i] * kRadians);
-        addNumber(arm, "cal_position", 0);
-        addNumber(motor, "cal_offset", 0);
-        motor.attributes.push_back({"valid_cal_offset", {}, false, 0});
-        arms.instances.push_back(std::move(arm));
-        calibration.instances.push_back(std::move(motor));
-    }
+void ensureText(CfgInstance& instance, const std::string& name, const std::string& value) {
+    if (instance.find(name) == nullptr) addText(instance, name, value);
+}
+
+void ensureNumber(CfgInstance& instance, const std::string& name, double value) {
+    if (instance.find(name) == nullptr) addNumber(instance, name, value);
 }
 
 void writeInstance(std::string& out, const CfgInstance& instance) {
@@ -104,36 +96,53 @@ void Configuration::load(Controller& controller) {
     addRobots(controller);
 }
 
-/// MOC parameters that the files leave out because they are those of the models.
+/// The instance of topic Motion with that type and name: that of the files, else a new one.
+CfgInstance& Configuration::motionInstance(const std::string& type, const std::string& name) {
+    for (CfgInstance* found : find({"MOC", type, "Name", name}))
+        return *found;
+    std::vector<CfgSection>& sections = files_.back().sections;
+    auto section = std::find_if(sections.begin(), sections.end(),
+                                [&](const CfgSection& other) { return other.type == type; });
+    if (section == sections.end()) section = sections.insert(section, {type, {}, {}, 0});
+    addText(section->instances.emplace_back(), "name", name);
+    return section->instances.back();
+}
+
+/// The axis with that name and place in the model.
+void Configuration::addAxis(const robot::RobotModel& model, std::size_t axis, const std::string& name) {
+    CfgInstance& arm = motionInstance("ARM", name);
+    ensureNumber(arm, "upper_joint_bound", model.upperDeg[axis] * kRadians);
+    ensureNumber(arm, "lower_joint_bound", model.lowerDeg[axis] * kRadians);
+    ensureNumber(arm, "cal_position", 0);
+    CfgInstance& motor = motionInstance("MOTOR_CALIB", name);
+    ensureNumber(motor, "cal_offset", 0);
+    if (motor.find("valid_cal_offset") == nullptr)
+        motor.attributes.push_back({"valid_cal_offset", {}, false, 0});
+}
+
+/// MOC parameters that the files leave out because they are those of the models: robots, their axes ("rob2_3" unless the files
+/// give names) and base frames.
 void Configuration::addRobots(Controller& controller) {
-    bool hasRobot = false, hasArms = false, hasCalibration = false;
-    for (CfgFile& file : files_) {
-        if (file.domain != "MOC") continue;
-        hasArms = hasArms || !file.find("ARM").empty();
-        hasCalibration = hasCalibration || !file.find("MOTOR_CALIB").empty();
-        for (CfgSection& section : file.sections) {
-            if (!sameName(section.type, "ROBOT")) continue;
-            hasRobot = true;
-            for (CfgInstance& instance : section.instances)
-                addBaseFrame(instance, baseOf(controller, instance.text("name")));
-        }
-    }
-    CfgSection robots{"ROBOT", {}, {}, 0}, arms{"ARM", {}, {}, 0}, calibration{"MOTOR_CALIB", {}, {}, 0};
+    files_.push_back({"robot", "MOC", "CFG_1.0:6:0::", {}});
     int number = 0;
     for (const auto& motion : controller.motions()) {
-        if (motion->unitName().empty()) continue; // external units alone
-        CfgInstance instance;
-        addText(instance, "name", motion->unitName());
-        addText(instance, "use_robot_type", motion->model().name);
-        addBaseFrame(instance, motion->model().baseFrame);
-        robots.instances.push_back(std::move(instance));
-        addArms(motion->model(), ++number, arms, calibration);
+        const std::string& unit = motion->unitName();
+        if (unit.empty()) continue; // external units alone
+        const robot::RobotModel& model = motion->model();
+        ++number;
+        for (std::size_t axis = 0; axis < kRobotAxes; ++axis) {
+            if (!hasAxis(model, axis)) continue;
+            // The seventh axis of an arm is a single unit of its own.
+            const bool isSingle = axis + 1 == kRobotAxes;
+            CfgInstance& owner = isSingle ? motionInstance("SINGLE", fmt::format("{}_{}", unit, kRobotAxes))
+                                          : motionInstance("ROBOT", unit);
+            const std::string attribute = isSingle ? "use_joint" : fmt::format("use_joint_{}", axis);
+            if (!isSingle) ensureText(owner, "use_robot_type", model.name);
+            ensureText(owner, attribute, fmt::format("rob{}_{}", number, axis + 1));
+            addAxis(model, axis, owner.text(attribute));
+        }
+        addBaseFrame(motionInstance("ROBOT", unit), model.baseFrame);
     }
-    CfgFile file{"robot", "MOC", "CFG_1.0:6:0::", {}};
-    if (!hasRobot) file.sections.push_back(std::move(robots));
-    if (!hasArms) file.sections.push_back(std::move(arms));
-    if (!hasCalibration) file.sections.push_back(std::move(calibration));
-    files_.push_back(std::move(file));
 }
 
 bool Configuration::Path::read(std::string_view text) {

@@ -10,7 +10,7 @@
 
 namespace rt::lib {
 
-/// What an attribute holds, as far as its text tells.
+/// The value of an attribute, as far as its text shows.
 enum class CfgKind { Number, Bool, Text };
 CfgKind kindOf(const CfgAttribute& attribute);
 bool isTrue(const CfgAttribute& attribute);
@@ -40,6 +40,8 @@ class Configuration {
   private:
     void load(Controller& controller);
     void addRobots(Controller& controller);
+    CfgInstance& motionInstance(const std::string& type, const std::string& name);
+    void addAxis(const robot::RobotModel& model, std::size_t axis, const std::string& name);
 
     std::vector<CfgFile> files_;
     bool loaded_ = false, changed_ = false;

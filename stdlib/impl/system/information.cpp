@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kSerialNumber = "00-00000";
 constexpr const char* kVersion = "7.20.0"; // of the RobotWare whose language this is
 
-// What of RobotWare's options this controller simulates.
+// The part of RobotWare's options that this controller simulates.
 constexpr const char* kOptions[] = {"Multitasking", "World Zones", "Fixed Position Events", "Path Recovery",
                                     "Independent Axis"};
 constexpr const char* kProducts[] = {"RobotControl"};

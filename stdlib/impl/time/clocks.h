@@ -8,7 +8,7 @@ struct StateKeepers;
 
 namespace rt::lib {
 
-/// A clock keeps what it has counted, and goes on when it ran. No time passes while no process runs.
+/// A clock keeps what it has counted, and continues when it ran. No time passes while no process runs.
 void keepClocks(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

@@ -1,5 +1,5 @@
 #pragma once
-// What a simulated camera sees: the JSON file of --camera (docs/vision.md).
+// The results of a simulated camera: the JSON file of --camera (docs/vision.md).
 
 #include "runtime/base/time.h"
 #include "runtime/robot/frames.h"

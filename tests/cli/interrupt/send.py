@@ -41,7 +41,7 @@ def main():
             sys.stdout.write(process.stdout.read().decode())
         print(f"status {status}")
         for left in os.listdir(folder):
-            print(f"left behind: {left}")
+            print(f"left over: {left}")
 
 
 main()

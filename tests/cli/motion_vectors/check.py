@@ -73,7 +73,7 @@ def passage(rows, point):
 
 
 def inner_points(program):
-    """Targets of the Cartesian movements but the last; circle points are no targets."""
+    """Targets of the Cartesian movements but the last; circle points do not count."""
     points = []
     for line in program.read_text().splitlines():
         if "Move" not in line or "MoveAbsJ" in line:

@@ -1,4 +1,4 @@
-"""memory.py COMMAND...: runs a command; tells its status and whether it stayed below a bound of memory."""
+"""memory.py COMMAND...: runs a command; prints its status and whether it stayed below a bound of memory."""
 
 import os
 import resource

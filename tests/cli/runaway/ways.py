@@ -27,7 +27,7 @@ def run(command, way, profile):
     elif way == 5:  # EXIT ends the program; the UNDO handler is broken off
         good = done.returncode == 0 and "UNDO aborted" in text and "the rest" not in done.stdout.decode()
     else:
-        good = done.returncode == 1 and "Stack used up" in text and "not reached" not in done.stdout.decode()
+        good = done.returncode == 1 and "Stack overflow" in text and "not reached" not in done.stdout.decode()
     if not good:
         print(f"way {way} {profile}: status {done.returncode}\n{text[:2000]}")
     return good

@@ -33,7 +33,7 @@ with tempfile.TemporaryDirectory() as folder:
             if not found:
                 rest.append(line)
             elif int(found[1]) > number + 1:
-                sys.exit(f"line {number + 1} is missing ahead of line {found[1]}")
+                sys.exit(f"line {number + 1} is missing before line {found[1]}")
             else:
                 number = int(found[1])
         if process.returncode == 0:

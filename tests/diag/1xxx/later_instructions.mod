@@ -1,4 +1,5 @@
 MODULE instructions_only
+  !@ rule: decision 41
   ! Without such names the words are what they are in newer files.
   PROC main()
     FOR i FROM 1 TO 3 DO

@@ -1,4 +1,5 @@
 MODULE later_procedure
+  !@ rule: decision 41
   ! A procedure with the name: the instruction cannot be meant in this file.
   PROC main()
     FOR i FROM 1 TO 3 DO

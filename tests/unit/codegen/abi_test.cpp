@@ -13,7 +13,7 @@ using namespace codegen;
 
 namespace {
 
-/// Where C++ puts a member, asked of an object and not of the derivation.
+/// The offset that C++ gives a member, taken from an object and not from the derivation.
 template <auto member> size_t placeOf() {
     static const abi::StructOf<member> object{};
     return static_cast<size_t>(reinterpret_cast<const char*>(&(object.*member)) -
@@ -120,7 +120,7 @@ struct Padded {
     alignas(8) int32_t further;
     int32_t last;
 };
-struct Aligned { // its fields lie where LLVM puts them, but there is room behind them
+struct Aligned { // its fields lie where LLVM puts them, but there is room after them
     int64_t number, further;
     alignas(16) int32_t last;
 };

@@ -34,7 +34,7 @@ TEST_CASE("retry executes the failing statement again", "[codegen]") {
     }
 }
 
-TEST_CASE("trynext goes on behind the failing statement", "[codegen]") {
+TEST_CASE("trynext continues after the failing statement", "[codegen]") {
     for (bool optimise : {false, true}) {
         Handlers test(optimise);
         float result = 0;

@@ -11,10 +11,10 @@
 
 namespace codegen_testing {
 
-/// What happened, in order, e.g. "raise 11 at 0 in trynext", "note 3".
+/// The calls, in order, e.g. "raise 11 at 0 in trynext", "note 3".
 extern std::vector<std::string> events;
 
-/// What the native rt_fallible returns, call by call; after the last one: status 0 and the argument.
+/// The statuses of the native rt_fallible, call by call; after the last one: status 0 and the argument.
 extern std::vector<rt::Status> fallibleStatuses;
 
 struct Task {

@@ -1,4 +1,4 @@
-// What a compiled module says about itself: the program description, symbols, debug lines, objects.
+// The self-description of a compiled module: the program description, symbols, debug lines, objects.
 
 #include <cstring>
 #include <filesystem>
@@ -22,7 +22,7 @@ ir::Module prepared(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("the program description tells what the module holds", "[codegen]") {
+TEST_CASE("the program description lists the contents of the module", "[codegen]") {
     ir::Module module = corpusModule("everything.rir");
     // External data come from outside; the test supplies them.
     static int32_t external = 5;

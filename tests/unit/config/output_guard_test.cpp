@@ -47,7 +47,7 @@ TEST_CASE("two outputs on one file are found before it exists", "[edit]") {
     CHECK(devices.conflict().empty());
 }
 
-TEST_CASE("a source is no place for an output, whether or not it is read", "[edit]") {
+TEST_CASE("a source is refused as an output, whether or not it is read", "[edit]") {
     for (const char* name : {"x.mod", "X.MODX", "x.sys", "x.sysx", "x.prg", "x.pgf", "EIO.cfg"}) {
         OutputGuard guard;
         guard.writes(name, "--trace");

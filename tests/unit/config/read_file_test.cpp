@@ -1,4 +1,4 @@
-// Reading whole files: what is no ordinary file is refused at once.
+// Reading whole files: anything but an ordinary file is refused at once.
 
 #include "config/read_file.h"
 #include "unit/temporary_folder.h"

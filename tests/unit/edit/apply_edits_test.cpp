@@ -60,7 +60,7 @@ TEST_CASE("a replacement is written in the encoding of the file", "[edit]") {
         CHECK(replaceOne(SourceFile("m.SYS", "x := 1;"), "1", "\xC3\xB6").bytes == "x := \xF6;");
         CHECK(replaceOne(SourceFile("m.sysx", "x := 1;"), "1", "\xC3\xB6").bytes == "x := \xC3\xB6;");
     }
-    SECTION("bytes that are no UTF-8 stay in a file that should be UTF-8") {
+    SECTION("bytes that are not UTF-8 stay in a file that should be UTF-8") {
         const SourceFile file("m.modx", "! \xE9 \xC3\xA9\nx := 1;\n");
         CHECK(replaceOne(file, "1", "2").bytes == "! \xE9 \xC3\xA9\nx := 2;\n");
     }

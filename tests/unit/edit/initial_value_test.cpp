@@ -54,7 +54,7 @@ TEST_CASE("values are written in the encoding of the file", "[edit]") {
                Catch::Contains("refused") && Catch::Contains("ISO 8859-1"));
 }
 
-TEST_CASE("an equal value is no change", "[edit]") {
+TEST_CASE("an equal value changes nothing", "[edit]") {
     const test::Parsed parsed = test::parseText("MODULE m\nVAR num a:=1;\nENDMODULE\n");
     const auto edits = edit::setInitialValue(*parsed.tree, "a", "1");
     CHECK(edits.ok());
@@ -70,9 +70,9 @@ TEST_CASE("values and names that cannot be used are refused", "[edit]") {
     CHECK_THAT(set(text, "a", "1"), Contains("m.a"));
     CHECK(set(text, "k.a", "7") == replaced(text, "k\nVAR num a:=1", "k\nVAR num a:=7"));
     CHECK_THAT(set(text, "m.a", ""), Contains("empty"));
-    CHECK_THAT(set(text, "m.a", "1;"), Contains("no value"));
+    CHECK_THAT(set(text, "m.a", "1;"), Contains("is not a value"));
     CHECK_THAT(set(text, "m.a", "1\n"), Contains("several lines"));
     CHECK_THAT(set(text, "m.a", "1 ! x"), Contains("comment"));
-    CHECK_THAT(set(text, "m.a", "[1,"), Contains("no value"));
+    CHECK_THAT(set(text, "m.a", "[1,"), Contains("is not a value"));
     CHECK_THAT(set(text, "m.a", "! x"), Contains("refused"));
 }

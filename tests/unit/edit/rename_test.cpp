@@ -1,4 +1,4 @@
-// A name changes wherever it stands and means the same; what would change the program is refused.
+// A name changes at all its places and means the same; a change of the program is refused.
 
 #include "frontend/edit/apply_edits.h"
 #include "frontend/edit/rename.h"
@@ -144,9 +144,9 @@ TEST_CASE("names that cannot be given are refused", "[edit][rename]") {
     CHECK_THAT(renameOne(text, "m.p.z", "x"), Contains("choose another name")); // hides x in p
     CHECK_THAT(renameOne(text, "x", "MoveL"), Contains("predefined"));
     CHECK_THAT(renameOne(text, "x", "while"), Contains("word of the language"));
-    CHECK_THAT(renameOne(text, "x", "2x"), Contains("no name"));
-    CHECK_THAT(renameOne(text, "x", "a b"), Contains("no name"));
-    CHECK_THAT(renameOne(text, "x", ""), Contains("no name"));
+    CHECK_THAT(renameOne(text, "x", "2x"), Contains("is not a name"));
+    CHECK_THAT(renameOne(text, "x", "a b"), Contains("is not a name"));
+    CHECK_THAT(renameOne(text, "x", ""), Contains("is not a name"));
     CHECK_THAT(renameOne(text, "x", std::string(33, 'a')), Contains("32"));
     CHECK_THAT(renameOne(text, "nothing", "a"), Contains("no declaration"));
     CHECK_THAT(renameOne(text, "num", "a"), Contains("predefined"));

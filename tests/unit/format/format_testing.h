@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the formatter share.
+// The common part of the tests of the formatter.
 
 #include "frontend/edit/apply_edits.h"
 #include "frontend/format/formatter.h"

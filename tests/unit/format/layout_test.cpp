@@ -1,4 +1,4 @@
-// What formatted text looks like: one case a rule of docs/formatting.md.
+// The form of formatted text: one case a rule of docs/formatting.md.
 
 #include "format_testing.h"
 
@@ -87,7 +87,7 @@ TEST_CASE("handlers one level in, declarations of a module not", "[format]") {
           "MODULE m\nPROC p()\n  a;\n  ERROR\n    b;\n  UNDO\n    c;\nENDPROC\nENDMODULE\n");
 }
 
-TEST_CASE("each instruction stands on a line of its own", "[format]") {
+TEST_CASE("each instruction is on a line of its own", "[format]") {
     CHECK(body("a;b; IF x THEN c; ENDIF here: GOTO here;") == "      a;\n"
                                                               "      b;\n"
                                                               "      IF x THEN\n"
@@ -117,7 +117,7 @@ TEST_CASE("a compact IF stays on its line, and its instruction one level in on t
                                                                                         "      e;");
 }
 
-TEST_CASE("semicolons stand behind what they end", "[format]") {
+TEST_CASE("semicolons follow directly what they end", "[format]") {
     CHECK(body("a ;\nb\n;\nIF x THEN ENDIF ;\n;") == "      a;\n      b;\n      IF x THEN\n      ENDIF;;");
     CHECK(body("a ! why\n;") == "      a ! why\n            ;");
 }
@@ -234,7 +234,7 @@ TEST_CASE("each of many comments before the end of a block is judged for itself"
     CHECK((body(written + "ENDIF") == expected + "      ENDIF"));
 }
 
-TEST_CASE("comments behind code keep their column when they share one", "[format]") {
+TEST_CASE("comments after code keep their column when they share one", "[format]") {
     CHECK(body("a;! x\nbcd;      ! y") == "      a; ! x\n      bcd; ! y");
     CHECK(body("a;     ! x\nbcd;   ! y\n       ! more") ==
           "      a;     ! x\n      bcd;   ! y\n             ! more");
@@ -361,7 +361,7 @@ TEST_CASE("modules with mistakes are refused, or formatted around them", "[forma
     // A stray semicolon: on the line of the misspelt word it would change what that is.
     CHECK(formatText("MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n", request) ==
           "MODULE m\nRECORD r\nnum a;\nEDREORD\n;\nENDMODULE\n");
-    // What follows an unreadable character is read the same on a line of its own: a space is one.
+    // The text after an unreadable character is read the same on a line of its own: a space is one.
     CHECK(formatText("MODULE f;\xC2\x9C"
                      "ENDMODULE\u00A0",
                      request) == "MODULE f;\xC2\x9C\nENDMODULE\n");

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of IR and code generation share: reading the corpus of tests/ir.
+// The common part of the tests of IR and code generation: reading the corpus of tests/ir.
 
 #include <catch2/catch.hpp>
 

@@ -89,7 +89,7 @@ TEST_CASE("charges become safepoints with the same cost", "[ir]") {
     CHECK(found[0].place == 0);
     CHECK(found[0].cost == 4);
     CHECK_FALSE(found[0].computed);
-    CHECK(found[1].block == 0); // ahead of the loop, for all its rounds
+    CHECK(found[1].block == 0); // before the loop, for all its rounds
     CHECK(found[1].cost == 0);
     CHECK(found[1].computed);
     CHECK(found[2].cost == 2); // each round of the second loop

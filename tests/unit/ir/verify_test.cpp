@@ -31,7 +31,7 @@ TEST_CASE("broken modules give exactly the findings they announce", "[ir]") {
 TEST_CASE("damage that the text cannot express is found", "[ir]") {
     ir::Module good = corpusModule("loops.rir");
     REQUIRE(ir::verify(good).empty());
-    SECTION("an instruction that stands in two blocks") {
+    SECTION("an instruction that is in two blocks") {
         ir::Module bad = good;
         ir::Routine& r = bad.routines[0];
         r.blocks[2].insts.insert(r.blocks[2].insts.begin(), r.blocks[0].insts[0]);

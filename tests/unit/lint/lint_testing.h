@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the warnings share: checks texts and tells what remains of the diagnostics.
+// The common part of the tests of the warnings: checks texts and gives the remaining diagnostics.
 
 #include "frontend/lint/lint.h"
 

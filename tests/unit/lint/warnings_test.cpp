@@ -61,7 +61,7 @@ TEST_CASE("options switch warnings off, on, and make errors of them", "[lint]") 
     CHECK(levels.of(Code::UnusedLabel) == Level::Off);
 }
 
-TEST_CASE("options with names that are no warnings say so", "[lint]") {
+TEST_CASE("options with names that are not warnings are reported", "[lint]") {
     lint::WarningLevels levels;
     std::string problem;
     CHECK_FALSE(lint::applyOption("unused-varable", levels, problem));
@@ -100,7 +100,7 @@ TEST_CASE("settings that cannot be used are reported at their place", "[lint]") 
     CHECK(sink.sorted()[1].file->lineColumn(sink.sorted()[1].range.begin).line == 4);
 }
 
-TEST_CASE("a project file that is no JSON or has unknown sections is reported", "[lint]") {
+TEST_CASE("a project file that is not JSON or has unknown sections is reported", "[lint]") {
     const auto codes = [](const std::string& json) {
         diag::Sink sink;
         settings(json, sink);
@@ -126,7 +126,7 @@ TEST_CASE("a comment on the line or alone before it switches a warning off", "[l
     // Further comments and empty lines may stand between.
     CHECK(lint::testing::codes(
               {module("!rapidc: ignore unused-variable -- the PLC reads it\n\n! a\nVAR num a;")}) == Codes{});
-    // Behind code it is for its own line only.
+    // After code it applies to its own line only.
     CHECK(lint::testing::codes({module("VAR num a; ! rapidc: ignore unused-variable\nVAR num b;")}) ==
           Codes{"RAP8003"});
     CHECK(lint::testing::codes({module("VAR num a; ! rapidc: ignore unused-label")}) == Codes{"RAP8003"});

@@ -1,4 +1,4 @@
-// Motors off: the arm brakes off its path, comes back to it, and goes on (manual 2.2.6).
+// Motors off: the arm brakes off its path, comes back to it, and continues (manual 2.2.6).
 
 #include "runtime/motion/motion_system.h"
 

@@ -163,7 +163,7 @@ TEST_CASE("an error leaves the queue as it was", "[motion][system]") {
     CHECK(sevenAxes.enqueue(jointsTo({1, 0, 0, 0, 30, 0})).error().kind == MotionErrorKind::BadArgument);
 }
 
-TEST_CASE("a fly-by move releases its program ahead of the zone, a concurrent one at its start",
+TEST_CASE("a fly-by move releases its program before the zone, a concurrent one at its start",
           "[motion][system]") {
     MotionSystem system = makeSystem();
     const Vec3 from = system.current().tcp.pos;
@@ -175,7 +175,7 @@ TEST_CASE("a fly-by move releases its program ahead of the zone, a concurrent on
     const TimeNs released = timeOf(events, MotionEventKind::Released, 1);
     const TimeNs reached = timeOf(events, MotionEventKind::Reached, 1);
     CHECK(released > timeOf(events, MotionEventKind::Started, 1));
-    // The largest zone, 75 mm, is half of the way; the program goes on 0.1 s before it.
+    // The largest zone, 75 mm, is half of the way; the program continues 0.1 s before it.
     const TimeNs entry = released + 100 * kMs;
     CHECK(norm(system.sample(entry).tcp.pos - from) == Approx(75).margin(1e-3));
     CHECK(reached > entry);
@@ -253,7 +253,7 @@ TEST_CASE("triggers reach into the move before and the one that follows", "[moti
     second.triggers.resize(1);
     second.triggers[0].id = 2;
     second.triggers[0].fromStart = true;
-    second.triggers[0].lag = 0.1; // s ahead of its start
+    second.triggers[0].lag = 0.1; // s before its start
     REQUIRE(system.enqueue(first).hasValue());
     REQUIRE(system.enqueue(second).hasValue());
     std::vector<MotionEvent> events;
@@ -288,7 +288,7 @@ TEST_CASE("after a power failure triggers fire again on the rest of the path", "
     system.start();
     std::vector<MotionEvent> events;
     const std::vector<double> places = placesOfTriggers(system, from, events);
-    CHECK(places[1] > 20); // its place lies behind: at once
+    CHECK(places[1] > 20); // its place has been passed: at once
     CHECK(places[1] < 90);
     CHECK(places[2] == Approx(90).margin(1e-4));
 }
@@ -419,7 +419,7 @@ TEST_CASE("a circle in two parts turns as CirPathMode says", "[motion][path]") {
     CHECK(robot::angleBetween(parts[0].target.pose.rot, robot::fromAxisAngle({1, 0, 0}, 30)) < 1e-6);
 }
 
-TEST_CASE("stop brakes on the path and start goes on from there", "[motion][system]") {
+TEST_CASE("stop brakes on the path and start continues from there", "[motion][system]") {
     MotionSystem straight = makeSystem();
     MotionSystem system = makeSystem();
     const MoveCommand line = lineFrom(system, 50, 100, -150);
@@ -447,7 +447,7 @@ TEST_CASE("stop brakes on the path and start goes on from there", "[motion][syst
     CHECK(norm(there - (from + way * share)) < 1e-6);
     CHECK(share > 0.45);
     CHECK(share < 0.8);
-    // Ordering goes on while stopped; nothing starts.
+    // Ordering continues while stopped; nothing starts.
     REQUIRE(system.enqueue(jointsTo({0, 0, 0, 0, 30, 0})).hasValue());
     CHECK(system.status(2) == MoveStatus::Queued);
 
@@ -570,7 +570,7 @@ TEST_CASE("clearing throws away what is not finished", "[motion][system]") {
     CHECK(system.isDone(1));
     CHECK(system.isReleased(2));
     CHECK(system.isMoving()); // still braking
-    // A new move starts from where the arm will stand, when it stands.
+    // A new move starts from the place of rest, when the arm is at rest.
     const Joints stop = system.plannedEnd().robax;
     CHECK(stop[0] > 10);
     CHECK(stop[0] < 60);
@@ -671,7 +671,7 @@ TEST_CASE("a path can be put aside for an errand and taken up again", "[motion][
         CHECK_FALSE(system.nextEventTime().has_value());
         system.takeEvents();
         system.start();
-        // Back on the line it goes on along it to the end.
+        // Back on the line it continues along it to the end.
         bool isOnLine = returnsByProgram;
         std::vector<MotionEvent> events;
         while (system.status(1) != MoveStatus::Done) {

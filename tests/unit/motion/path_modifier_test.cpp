@@ -23,7 +23,7 @@ MotionSystem makeSystem() {
     return MotionSystem(*model);
 }
 
-/// Relative to where the last movement ends, in world (the robot stands at its origin).
+/// Relative to the end of the last movement, in world (the robot is at its origin).
 MoveCommand lineBy(const MotionSystem& system, const Vec3& way, double speed = 100) {
     MoveCommand command;
     command.kind = MoveKind::Linear;
@@ -163,7 +163,7 @@ TEST_CASE("stopping on the path keeps the displacement, clearing the path begins
     run(system, 1500 * kMs);
     REQUIRE_FALSE(system.isMoving());
     const Vec3 stopped = system.current().tcp.pos;
-    corrections->setOffset({0, -4, 0}); // while the arm stands nothing happens
+    corrections->setOffset({0, -4, 0}); // while the arm is at rest nothing happens
     run(system, 2000 * kMs);
     CHECK(isNear(system.current().tcp.pos, stopped, 1e-9));
     SECTION("cleared") {

@@ -150,7 +150,7 @@ MotionSystem smallRobot() {
     return system;
 }
 
-/// Runs a program as a task would: the next move is ordered when the one before lets the program go on. Calls `each` at
+/// Runs a program as a task would: the next move is ordered when the one before lets the program continue. Calls `each` at
 /// every tick. The speeds of the moves that were possible.
 template <class Each>
 std::vector<double> runProgram(MotionSystem& system, const std::vector<MoveCommand>& program, Each&& each) {
@@ -431,7 +431,7 @@ TEST_CASE("an axis that turns a revolution in a joint move does not jump in the 
     CHECK(before == Approx(system.plannedEnd().robax[5]).margin(1e-6));
 }
 
-TEST_CASE("figures of a zone that are no distances are refused", "[motion][random]") {
+TEST_CASE("figures of a zone that are not distances are refused", "[motion][random]") {
     for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
         MotionSystem system = smallRobot();
         MoveCommand command = lineBy(system, 0, 50, 0, 10);

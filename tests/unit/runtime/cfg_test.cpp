@@ -69,7 +69,9 @@ TEST_CASE("configuration: an attribute without value before another one", "[cfg]
     CHECK(only(file).flag("tuning_in_auto"));
 }
 
-TEST_CASE("configuration: a dash in a text is no attribute, a backslash in it no continuation", "[cfg]") {
+TEST_CASE("configuration: a dash in a text does not begin an attribute, a backslash in it does not continue "
+          "the line",
+          "[cfg]") {
     const CfgFile file =
         read("SIO:CFG_1.0:7:0::\n#\nT:\n\n      -Name \"a -b c\" -Path \"C:\\dir\\\" -N 1\n");
     CHECK(only(file).text("Name") == "a -b c");
@@ -108,7 +110,7 @@ TEST_CASE("configuration: problems name file and line, the rest is read", "[cfg]
     CHECK(file.sections[0].instances.size() == 3);
 }
 
-TEST_CASE("configuration: what is no configuration at all", "[cfg]") {
+TEST_CASE("configuration: other texts are not taken for configurations", "[cfg]") {
     read("", 1);
     read("MODULE m\nENDMODULE\n", 1);
     read(std::string("\0\x01\xFF", 3), 1);

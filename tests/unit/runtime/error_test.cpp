@@ -97,7 +97,7 @@ TEST_CASE("RaiseToUser finds the innermost routine that is not NOSTEPIN", "[erro
     CHECK(userLevelHandler(&inner, 12) == nullptr);
 }
 
-TEST_CASE("an error without handler stops the program with an event that tells place and chain", "[errors]") {
+TEST_CASE("an error without handler stops the program with an event that names place and chain", "[errors]") {
     static const Routine main("main", 9), helper("helper", 30);
     Run run;
     run.task("T_ROB1", [](TaskCore* core, Frame* caller) -> Status {

@@ -27,7 +27,7 @@ struct Bench {
         now += kMillisecond;
         log.write(EventType::Warning, number, title, "text", nullptr);
     }
-    /// "title@time", with "xN" when a line stands for N.
+    /// "title@time", with "xN" when a line represents N.
     std::vector<std::string> lines() {
         log.finish();
         REQUIRE(log.closeJson());
@@ -92,7 +92,7 @@ TEST_CASE("the log keeps repetitions in one place, and finds each of them", "[lo
     CHECK(bench.log.find(0) == nullptr);
     CHECK(bench.log.find(3002) == nullptr);
 
-    EventLog next; // of the run that goes on
+    EventLog next; // of the run that continues
     next.setHumanOutput(nullptr);
     next.write(EventType::Warning, 80001, "c", "text", nullptr);
     next.restore({bench.log.events().begin(), bench.log.events().end()});

@@ -66,7 +66,7 @@ TEST_CASE("stimulus: header, comments, order, quotes", "[stimulus]") {
     CHECK(items[6].value == 1);
 }
 
-TEST_CASE("stimulus: every wrong line is told with its number", "[stimulus]") {
+TEST_CASE("stimulus: every invalid line is reported with its number", "[stimulus]") {
     std::vector<StimulusProblem> problems;
     parseStimulus("x,di1,1\n-1,di1,1\n1,,1\n1\n1,di1,high?\n1,stop,7\n1,\"di1,1\n", problems);
     REQUIRE(problems.size() == 7);

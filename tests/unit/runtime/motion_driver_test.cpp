@@ -97,7 +97,7 @@ TEST_CASE("the same program and stimulus give the same trace to the byte", "[mot
     CHECK(one.size() > 1000);
 }
 
-TEST_CASE("a stop order brakes the robot on its path; a start goes on", "[motion_driver]") {
+TEST_CASE("a stop order brakes the robot on its path; a start continues", "[motion_driver]") {
     const TempFolder folder;
     Run plain, stopped;
     traceOf(folder, "", twoMoves, plain);
@@ -135,7 +135,7 @@ TEST_CASE("triggers call back at their time on the path", "[motion_driver]") {
     CHECK(std::llabs(reached - fired - 100 * kMillisecond) < kMillisecond);
 }
 
-TEST_CASE("the run ends when the robot stands, not before", "[motion_driver]") {
+TEST_CASE("the run ends when the robot is at rest, not before", "[motion_driver]") {
     Run run;
     run.task("T_ROB1", [](TaskCore* core, Frame*) -> Status {
         Task& task = taskOf(core);
@@ -161,7 +161,7 @@ TEST_CASE("pp_to_main throws the path away and the program begins again", "[moti
     CHECK(trace.back().axis1 == Approx(-10).margin(0.2));
 }
 
-TEST_CASE("a move that cannot be made is told, not made", "[motion_driver]") {
+TEST_CASE("a move that cannot be made is reported, not made", "[motion_driver]") {
     Run run;
     run.task("T_ROB1", [](TaskCore* core, Frame*) -> Status {
         Task& task = taskOf(core);

@@ -1,4 +1,4 @@
-// What the modules in program memory declare: loading and unloading leaves nothing.
+// The declarations of the modules in program memory: loading and unloading leaves nothing.
 
 #include "runtime/program/program_tables.h"
 

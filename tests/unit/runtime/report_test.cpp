@@ -272,7 +272,7 @@ TEST_CASE("columns of a recording are found by lenient names, with units", "[rep
     recording = all.at(0);
     CHECK(recording.hasJoints);
     CHECK(recording.samples[1].joints[5] == Approx(180));
-    // Quaternions of a trace are no axes.
+    // Quaternions of a trace are not axes.
     REQUIRE(
         parseRecording("time_s,x,y,z,q1,q2,q3,q4\n0,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n", "r.csv", all).empty());
     CHECK_FALSE(all.at(0).hasJoints);

@@ -76,7 +76,7 @@ StateImage sample() {
     event.number = 80001;
     event.type = EventType::Warning;
     event.title = "title";
-    event.text = "bytes that are no text: \xFF";
+    event.text = "bytes that are not text: \xFF";
     event.time = 1'500'000'000;
     event.place = {"Main", "main", "main.modx", 12, 3};
     event.arguments = {"a", "b"};

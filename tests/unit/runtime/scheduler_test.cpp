@@ -232,7 +232,7 @@ TEST_CASE("ExitCycle ends one cycle, EXIT the program", "[sched]") {
     CHECK(mains == 3);
 }
 
-TEST_CASE("Stop without a start to come ends the run; other NORMAL tasks go on", "[sched]") {
+TEST_CASE("Stop without a start to come ends the run; other NORMAL tasks continue", "[sched]") {
     static bool after = false, other = false;
     after = other = false;
     Run run;

@@ -1,4 +1,4 @@
-// What executables and rapidc say to each other when a module is loaded.
+// The messages of executables and rapidc when a module is loaded.
 
 #include <catch2/catch.hpp>
 
@@ -94,7 +94,7 @@ TEST_CASE("an answer with a compiled module comes across", "[units]") {
     CHECK(read->open.names == std::vector<std::string>{"'y' (part.modx:3)"});
 }
 
-TEST_CASE("other bytes are no request and no answer", "[units]") {
+TEST_CASE("other bytes are neither a request nor an answer", "[units]") {
     const std::string whole[] = {request({}, {}), answer()};
     for (const std::string& bytes : whole) {
         for (size_t length = 0; length < bytes.size(); ++length) {

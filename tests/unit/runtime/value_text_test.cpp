@@ -46,7 +46,7 @@ std::string string(std::string_view bytes) {
     return text;
 }
 
-/// What the front end makes of a literal.
+/// The value that the front end gives a literal.
 double literal(std::string_view text) {
     const bool negative = text.front() == '-';
     const auto value = rapid::syntax::numberValue(text.substr(negative ? 1 : 0));
@@ -109,12 +109,12 @@ TEST_CASE("numbers that are not finite have no literal", "[value]") {
     CHECK_FALSE(valueToSource(&none, kDnum, text));
 }
 
-TEST_CASE("strings: quotes and backslashes doubled, what is no text as codes", "[value]") {
+TEST_CASE("strings: quotes and backslashes doubled, other bytes as codes", "[value]") {
     CHECK(string("a \"b\" \\c") == R"("a ""b"" \\c")");
     CHECK(string("bell \x07\n\x7F") == R"("bell \07\0A\7F")");
     CHECK(string("gr\xC3\xBCn") == "\"gr\xC3\xBCn\"");
     CHECK(string("\xC3") == R"("\C3")");
-    CHECK(string("\xED\xA0\x80") == R"("\ED\A0\80")"); // half of a surrogate pair is no character
+    CHECK(string("\xED\xA0\x80") == R"("\ED\A0\80")"); // half of a surrogate pair is not a character
     CHECK(string("") == "\"\"");
 }
 

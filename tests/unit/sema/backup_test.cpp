@@ -106,7 +106,7 @@ TEST_CASE("anything at all may stand in backinfo.txt", "[project][backup]") {
     }
 }
 
-TEST_CASE("SYS.cfg tells tasks and what is loaded into them", "[project][backup]") {
+TEST_CASE("SYS.cfg defines tasks and the modules loaded into them", "[project][backup]") {
     const TaskParameters parameters = readTaskParameters(
         "SYS:CFG_1.0:5:0::\r\n#\r\nCAB_TASKS:\r\n\r\n      -Name \"T_ROB1\" -Type \"normal\" "
         "-MotionTask \r\n      -Name \"T_UI\" -Type \"STATIC\" -Entry \"Main\"\\\r\n"
@@ -190,8 +190,9 @@ TEST_CASE("a task of an option without modules is one warning", "[project][backu
     backup.write("RAPID/TASK1/SYSMOD/user.sys", kModule);
     backup.load();
     CHECK(backup.codes() == "RAP6057");
-    CHECK(backup.message(diag::Code::TaskLeftOut) ==
-          "task 'SC_CBC' is left out: the backup has no modules of it, an option of the controller makes it");
+    CHECK(
+        backup.message(diag::Code::TaskLeftOut) ==
+        "task 'SC_CBC' is left out: the backup has no modules for it, an option of the controller makes it");
     CHECK(backup.project.tasks.size() == 1);
 }
 
@@ -212,7 +213,7 @@ TEST_CASE("a task may live in HOME alone", "[project][backup]") {
     CHECK(backup.modules(1) == "bg.mod all.sys");
 }
 
-TEST_CASE("a module that is missing is told once", "[project][backup]") {
+TEST_CASE("a missing module is reported once", "[project][backup]") {
     Backup backup;
     backup.write("BACKINFO/backinfo.txt",
                  ">>TASK1: (T_ROB1,,)\nPROGMOD\\main.mod @ \nSYSMOD\\USER.sys @ user.sys\n"
@@ -251,7 +252,7 @@ TEST_CASE("a backup that has lost its RAPID folder still says what was in it", "
     CHECK(backup.project.tasks.empty());
 }
 
-TEST_CASE("what the lack of system parameters means is told", "[project][backup]") {
+TEST_CASE("the effect of missing system parameters is reported", "[project][backup]") {
     Backup backup;
     backup.write("BACKINFO/backinfo.txt", ">>SYSTEM_ID:\nCell 7\n>>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \n");
     backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
@@ -368,7 +369,7 @@ TEST_CASE("a folder of a task without a module is one warning", "[project][backu
     backup.load();
     CHECK(backup.codes() == "RAP6053 RAP6057"); // RAP6053: T_BG
     CHECK(backup.message(diag::Code::TaskLeftOut) ==
-          "task 'TASK7' is left out: the backup has no modules of it");
+          "task 'TASK7' is left out: the backup has no modules for it");
 }
 
 TEST_CASE("without backinfo.txt the folders are the tasks of CAB_TASKS", "[project][backup]") {
@@ -396,7 +397,8 @@ TEST_CASE("without backinfo.txt the folders are the tasks of CAB_TASKS", "[proje
     CHECK(flat.modules(0) == "main.mod user.sys");
 }
 
-TEST_CASE("the motion task comes first, and the robot may be told by the options only", "[project][backup]") {
+TEST_CASE("the motion task comes first, and the robot may be known from the options only",
+          "[project][backup]") {
     Backup backup;
     backup.write("BACKINFO/backinfo.txt",
                  ">>PRODUCTS_ID:\nRobotWare Version: 6.08\n\n  Drive System IRB 120/140\n"
@@ -413,7 +415,7 @@ TEST_CASE("the motion task comes first, and the robot may be told by the options
         "MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n      -name \"ROB_1\" -use_robot_type \"ROB1_1660ID_1.55_4\"\n");
     backup.project = {};
     backup.load();
-    CHECK(backup.project.robot.empty()); // MOC.cfg tells it
+    CHECK(backup.project.robot.empty()); // MOC.cfg names it
 }
 
 TEST_CASE("the RAPID folder of a backup means the backup, task folders alone are one", "[project][backup]") {

@@ -66,7 +66,7 @@ TEST_CASE("every code of the catalogue is caused by a test", "[diag][gate]") {
                     gather(numbers, text, number);
                     gather(names, text, name);
                 });
-    // What nothing can cause from outside, and why.
+    // Codes that nothing can cause from outside, and why.
     static const std::map<int, std::string> kExempt = {{9001, "only a mistake of rapidc itself causes it"}};
     for (const diag::CatalogueEntry& entry : diag::catalogue()) {
         if (kExempt.contains(entry.number)) continue;

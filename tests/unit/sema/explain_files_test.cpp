@@ -63,7 +63,7 @@ TEST_CASE("examples of files and a command do what they say", "[sema][diag]") {
         const std::string code = "RAP" + std::to_string(e->number);
         const Outcome wrong = attempt(diag::exampleProject(e->kind, e->wrong));
         INFO(e->wrong << "\n" << wrong.output);
-        if (code == "RAP1099") { // stands behind others
+        if (code == "RAP1099") { // comes after others
             CHECK(wrong.notes.contains(code));
         } else if (wrong.notes.contains(code)) {
             CHECK(wrong.codes.empty());

@@ -50,7 +50,7 @@ TEST_CASE("components find their like among thousands", "[sema]") {
     CHECK(checkTexts({text})->codes() == Messages{"RAP2005", "RAP2005"});
 }
 
-TEST_CASE("dimensions that stand behind thousands of others are refused", "[sema]") {
+TEST_CASE("dimensions that depend on thousands of others are refused", "[sema]") {
     std::string text = "MODULE m\n";
     for (int i = 0; i < 30000; ++i)
         text += "  CONST num c" + std::to_string(i) + "{c" + std::to_string(i + 1) + "{1}}:=[1];\n";

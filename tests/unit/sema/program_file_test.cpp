@@ -8,7 +8,7 @@ using rapid::project::readProgramFile;
 
 namespace {
 
-/// The modules joined by '|'; "none" for a text that is no program file.
+/// The modules joined by '|'; "none" for a text that is not a program file.
 std::string read(std::string_view text) {
     std::vector<std::string> modules;
     if (!readProgramFile(text, modules)) return "none";
@@ -33,7 +33,7 @@ TEST_CASE("a program file names its modules", "[project]") {
     CHECK(read("<Program><!-- <Module>old.mod</Module> --><Module/><Module></Module></Program>") == "");
 }
 
-TEST_CASE("what is no program file is told", "[project]") {
+TEST_CASE("other texts are reported", "[project]") {
     CHECK(read("") == "none");
     CHECK(read("MODULE m\nENDMODULE\n") == "none");
     CHECK(read("<Program><Module>a.mod") == "none");

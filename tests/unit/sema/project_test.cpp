@@ -151,7 +151,7 @@ TEST_CASE("a program file lists its modules", "[project]") {
     CHECK(load({empty})->codes() == Names{"RAP6024"});
 }
 
-TEST_CASE("a pipe among the modules of a folder is told and not waited for", "[project]") {
+TEST_CASE("a pipe among the modules of a folder is reported and not waited for", "[project]") {
     const Folder folder;
     folder.write("a.modx", "MODULE a\nENDMODULE\n");
     REQUIRE(::mkfifo((folder / "b.modx").c_str(), 0600) == 0);
@@ -166,7 +166,7 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     CHECK(load({folder / "none.modx"})->codes() == Names{"RAP6020"});
     CHECK(load({folder / "empty"})->codes() == Names{"RAP6022"});
     folder.write("deep/a/b/c.modx", kModule);
-    CHECK(load({folder / "deep"})->codes() == Names{"RAP6022"}); // which tells where they are
+    CHECK(load({folder / "deep"})->codes() == Names{"RAP6022"}); // which says where they are
     CHECK(load({folder / "empty/readme.txt"})->codes() == Names{"RAP6023"});
     CHECK(load({})->codes() == Names{"RAP6026"});
     CHECK_FALSE(load({folder / "none.modx"})->ok);

@@ -1,4 +1,4 @@
-// What a message about a value that does not fit says to do, and that doing it makes the program right.
+// The remedy in a message about a value that does not fit, and that it makes the program right.
 
 #include "sema_testing.h"
 
@@ -46,10 +46,10 @@ const Case kCases[] = {
     {"MoveL jp,v100,z50,tool0;", "RAP4011", ": MoveAbsJ moves to a jointtarget", ""},
     {"MoveAbsJ p10,v100,z50,tool0;", "RAP4011", ": MoveJ and MoveL move to a robtarget", ""},
     {"target := jp;", "RAP2104", ": CalcRobT gives the robtarget of joint angles", ""},
-    {"WaitTime \"1.5\";", "RAP4011", ": a number stands without quotes", "WaitTime 1.5;"},
+    {"WaitTime \"1.5\";", "RAP4011", ": a number is written without quotes", "WaitTime 1.5;"},
     {"WaitTime \"soon\";", "RAP4011", ": StrToVal reads a value from a text", ""},
     {"WaitTime large;", "RAP4011", ": convert it with DnumToNum", ""},
-    {"n := \"5\";", "RAP2104", ": a number stands without quotes", "n := 5;"},
+    {"n := \"5\";", "RAP2104", ": a number is written without quotes", "n := 5;"},
     {"n := TRUE;", "RAP2104", ": write 1", "n := 1;"},
     {"n := row;", "RAP2104", ": choose an element, as in row{1}", ""},
     {"n := grid;", "RAP2104", ": choose an element, as in grid{1,1}", ""},
@@ -64,8 +64,8 @@ const Case kCases[] = {
     {"target := Offs(p10.trans,0,0,1);", "RAP4011", "; did you mean 'p10'?", "target := Offs(p10,0,0,1);"},
     {"IF n b := TRUE;", "RAP3007", ": compare it, as in n <> 0", ""},
     {"IF 1 b := TRUE;", "RAP3007", ": write TRUE", "IF TRUE b := TRUE;"},
-    {"IF n = \"5\" b := TRUE;", "RAP3004", ": a number stands without quotes", "IF n = 5 b := TRUE;"},
-    {"IF \"5\" = n b := TRUE;", "RAP3004", ": a number stands without quotes", "IF 5 = n b := TRUE;"},
+    {"IF n = \"5\" b := TRUE;", "RAP3004", ": a number is written without quotes", "IF n = 5 b := TRUE;"},
+    {"IF \"5\" = n b := TRUE;", "RAP3004", ": a number is written without quotes", "IF 5 = n b := TRUE;"},
     {"IF b = 1 b := FALSE;", "RAP3004", ": write TRUE", "IF b = TRUE b := FALSE;"},
     {"n := give(7);", "RAP4011", ": write a text between double quotes", "n := give(\"7\");"},
     {"TPWrite \"n: \", n;", "RAP4001", "; did you mean '\\Num:=n'?", "TPWrite \"n: \", \\Num:=n;"},
@@ -159,7 +159,7 @@ using Fixes = std::vector<std::string>;
 } // namespace
 
 // Manual 1.1.2: what a module declares hides what is predefined.
-TEST_CASE("a name that the program has taken is no remedy", "[sema]") {
+TEST_CASE("a name that the program has taken is not proposed", "[sema]") {
     const std::string target =
         "CONST robtarget p10:=[[0,0,5],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];";
     CHECK(fixesOf(target, "MoveL p10,100,fine,tool0;") == Fixes{"?MoveL p10,v100,fine,tool0;"});
@@ -209,18 +209,17 @@ TEST_CASE("parentheses become those of an index where indices stand in them", "[
     CHECK(fixesOf("VAR num n; VAR num row{2};", "n := row(\\a:=1);").empty());
 }
 
-// Manual 1.2.5: an aggregate stands between brackets as a whole.
+// Manual 1.2.5: an aggregate is between brackets as a whole.
 TEST_CASE("parts of a value without brackets around them are one message", "[sema]") {
     const std::string text =
         "MODULE m\n  CONST robtarget q := [1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9];\n"
         "  VAR pos p := [1,2,3];\nENDMODULE\n";
-    CHECK(
-        testing::checkTexts({text})->messages() ==
-        std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts is "
-                                 "between '[' and ']' as a whole"});
+    CHECK(testing::checkTexts({text})->messages() ==
+          std::vector<std::string>{"RAP1101 at 2:31: found ',', expected ';': a value of several parts is "
+                                   "between '[' and ']' as a whole"});
 }
 
-// Manual 1.2.7: dimensions are constant. What is wrong with the constant is told at its declaration.
+// Manual 1.2.7: dimensions are constant. Errors of the constant are reported at its declaration.
 TEST_CASE("a constant without value as dimension is one message", "[sema]") {
     const std::string text =
         "MODULE m\n  CONST num k := reg1 + 1;\n  VAR num row{k};\n  VAR num grid{2,k*2};\n"

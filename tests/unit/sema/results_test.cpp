@@ -1,4 +1,4 @@
-// What check() leaves for lowering: types, constants, bound arguments, symbols and their places.
+// The results of check() for lowering: types, constants, bound arguments, symbols and their places.
 
 #include "sema_testing.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the checker share: the library as text, checking of a text, the diagnostics in short form.
+// The common part of the tests of the checker: the library as text, checking of a text, the diagnostics in short form.
 
 #include "frontend/sema/checker.h"
 

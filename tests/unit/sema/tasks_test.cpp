@@ -27,7 +27,7 @@ TEST_CASE("a program that is to run needs one global procedure main", "[sema]") 
 
     const auto function = checkMain({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"});
     REQUIRE(function->codes() == Messages{"RAP6002"});
-    // rapidc check does not ask for a main, but what is no procedure can be the entry of no task.
+    // rapidc check does not require a main, but only a procedure can be the entry of a task.
     CHECK(checkTexts({"MODULE m\n  FUNC num Main()\n    RETURN 1;\n  ENDFUNC\nENDMODULE\n"})->codes() ==
           Messages{"RAP6002"});
     const std::string required = "MODULE m\n  PROC main(num a)\n  ENDPROC\nENDMODULE\n";
@@ -46,7 +46,7 @@ TEST_CASE("a program that is to run needs one global procedure main", "[sema]") 
     CHECK(good->program->tasks[0]->entryRoutine != nullptr);
 }
 
-TEST_CASE("a LOCAL main is told where nothing else can be meant", "[sema]") {
+TEST_CASE("a LOCAL main is reported where nothing else can be meant", "[sema]") {
     const auto codes = [](const std::string& body, const std::string& more = "") {
         return checkTexts({"MODULE m\n  LOCAL PROC main()\n" + body + "  ENDPROC\n" + more + "ENDMODULE\n"})
             ->codes();
@@ -109,7 +109,8 @@ TEST_CASE("tasks have names of their own but share global persistents", "[sema]"
     CHECK(checked->program->tasks.size() == 2);
 }
 
-TEST_CASE("records of one name that differ between tasks are told by where they differ, once", "[sema]") {
+TEST_CASE("records of one name that differ between tasks are reported with their difference, once",
+          "[sema]") {
     const auto shared = [](const std::string& part, const std::string& value) {
         return "MODULE m\n  RECORD inner\n    " + part +
                "\n  ENDRECORD\n  RECORD whole\n    num id;\n    inner place;\n" +
@@ -185,7 +186,7 @@ TEST_CASE("letters of ISO 8859-1 are names without regard to case", "[sema]") {
     CHECK(checked->messages().empty());
 }
 
-TEST_CASE("long chains of operators and many names are no trouble", "[sema]") {
+TEST_CASE("long chains of operators and many names are checked", "[sema]") {
     std::string sum = "1";
     for (int i = 0; i < 900; ++i)
         sum += i % 100 == 99 ? "\n+1" : "+1";

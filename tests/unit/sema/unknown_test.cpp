@@ -51,7 +51,7 @@ TEST_CASE("what a missing module may declare is a warning that names the module,
     Messages expected;
     const auto add = [&](const char* place, const char* name, const char* hint = "") {
         expected.push_back(std::string("RAP2009 at ") + place + ": '" + name +
-                           "' is not declared here, it may be declared in 'secret.sys'" + hint);
+                           "' is not declared here but may be declared in 'secret.sys'" + hint);
     };
     add("2:7", "part");
     add("6:5", "pick");
@@ -59,10 +59,9 @@ TEST_CASE("what a missing module may declare is a warning that names the module,
     add("8:8", "limit");
     add("9:22", "stopped");
     add("14:5", "countr", "; did you mean 'counter'?");
-    expected.push_back(
-        "RAP4002 at 15:5: call of 'MoveL' lacks the required arguments 'Speed', 'Zone', 'Tool'");
+    expected.push_back("RAP4002 at 15:5: missing arguments 'Speed', 'Zone', 'Tool' in call to 'MoveL'");
     Messages found = checked->messages();
-    REQUIRE(found.size() == expected.size() + 1); // the 5 is no robtarget
+    REQUIRE(found.size() == expected.size() + 1); // the 5 is not a robtarget
     for (size_t i = 0; i < expected.size(); ++i) {
         INFO(found[i]);
         CHECK(std::find(found.begin(), found.end(), expected[i]) != found.end());
@@ -72,10 +71,10 @@ TEST_CASE("what a missing module may declare is a warning that names the module,
 TEST_CASE("several missing modules are listed, many are counted", "[sema]") {
     const std::string text = "MODULE work\n  PROC run()\n    pick;\n  ENDPROC\nENDMODULE\n";
     CHECK(checkBeside({"a.sys", "b.mod"}, text)->messages() ==
-          Messages{"RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'a.sys' or 'b.mod'"});
+          Messages{"RAP2009 at 3:5: 'pick' is not declared here but may be declared in 'a.sys' or 'b.mod'"});
     CHECK(checkBeside({"a", "b", "c", "d", "e"}, text)->messages() ==
           Messages{
-              "RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'a', 'b', 'c' or one of 2 "
+              "RAP2009 at 3:5: 'pick' is not declared here but may be declared in 'a', 'b', 'c' or one of 2 "
               "other modules"});
 }
 
@@ -84,7 +83,7 @@ TEST_CASE("an encrypted module among the files counts as missing", "[sema]") {
         checkBeside({}, "MODULE work\n  PROC run()\n    pick;\n  ENDPROC\nENDMODULE\n", true);
     const Messages found = checked->messages();
     CHECK(std::find(found.begin(), found.end(),
-                    "RAP2009 at 3:5: 'pick' is not declared here, it may be declared in 'secret.modx'") !=
+                    "RAP2009 at 3:5: 'pick' is not declared here but may be declared in 'secret.modx'") !=
           found.end());
 }
 
@@ -92,8 +91,8 @@ TEST_CASE("a signal that the configuration lacks may be a variable of a missing 
     const auto checked = checkBeside(
         {"io.sys"}, "MODULE work\n  PROC run()\n    Set doGrip;\n  ENDPROC\nENDMODULE\n", false, true);
     CHECK(checked->messages() ==
-          Messages{"RAP2009 at 3:9: 'doGrip' is not declared here, it may be declared in 'io.sys'; if it "
-                   "is a signal, define it in EIO.cfg and pass that with --config"});
+          Messages{"RAP2009 at 3:9: 'doGrip' is not declared here but may be declared in 'io.sys'; if it "
+                   "is a signal, define it in EIO.cfg and pass that file with --config"});
 }
 
 TEST_CASE("nothing is missing: an unknown name is an error", "[sema]") {
@@ -197,7 +196,7 @@ TEST_CASE("a persistent that tasks share has one type: records are compared by t
     CHECK(codes(xy, module("    num x;\n    dnum y;\n", "LOCAL ")).empty());
 }
 
-TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
+TEST_CASE("names of well-known add-ins are distinguished from mistakes", "[sema]") {
     const std::string text = "MODULE m\n"
                              "  TASK PERS menudata md:=[\"\",1];\n"
                              "  CONST be_device dev:=[TRUE];\n"
@@ -215,7 +214,7 @@ TEST_CASE("names of well-known add-ins are told from mistakes", "[sema]") {
     const auto checked = testing::checkTexts({text});
     const auto message = [](const char* place, const char* name, const char* addIn) {
         return std::string("RAP2009 at ") + place + ": '" + name +
-               "' is not declared here, it may be declared in the add-in " + addIn;
+               "' is not declared here but may be declared in the add-in " + addIn;
     };
     CHECK(
         checked->messages() ==
@@ -239,14 +238,14 @@ TEST_CASE("data that an add-in's template modules declare may be declared there"
     const auto checked = testing::checkTexts({text});
     const auto addIn = [](const char* place, const char* name) {
         return std::string("RAP2009 at ") + place + ": '" + name +
-               "' is not declared here, it may be declared in the add-in PickMaster";
+               "' is not declared here but may be declared in the add-in PickMaster";
     };
     CHECK(checked->messages() == Messages{addIn("3:21", "MaxNoSources"), addIn("4:10", "ItmSrcData"),
                                           addIn("4:29", "PickPlaceRunning"),
                                           "RAP2001 at 6:5: 'MaxNoSource' is not declared"});
 }
 
-TEST_CASE("data types, constants and errors of options are told from mistakes", "[sema]") {
+TEST_CASE("data types, constants and errors of options are distinguished from mistakes", "[sema]") {
     const std::string text = "MODULE m\n"
                              "  VAR pm_targetdata goal;\n"
                              "  PROC main()\n"
@@ -261,7 +260,7 @@ TEST_CASE("data types, constants and errors of options are told from mistakes", 
                              "ENDMODULE\n";
     const auto addIn = [](const char* place, const char* name, const char* declaredIn) {
         return std::string("RAP2009 at ") + place + ": '" + name +
-               "' is not declared here, it may be declared in the add-in " + declaredIn;
+               "' is not declared here but may be declared in the add-in " + declaredIn;
     };
     const char* const palletizing = "PickMaster palletizing (Palletizing PowerPac)";
     CHECK(testing::checkTexts({text})->messages() ==
@@ -297,7 +296,7 @@ TEST_CASE("results of BullsEye, names of other releases, data types only where o
                              "ENDMODULE\n";
     const auto declaredIn = [](const char* place, const char* name, const char* where) {
         return std::string("RAP2009 at ") + place + ": '" + name +
-               "' is not declared here, it may be declared in " + where;
+               "' is not declared here but may be declared in " + where;
     };
     const char* const release = "another release of RobotWare";
     const char* const seams = "the add-in of the Servo-Robot seam finder";

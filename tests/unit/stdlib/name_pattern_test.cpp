@@ -40,7 +40,7 @@ TEST_CASE("parts of patterns of names", "[names]") {
     CHECK(matches("a.c", "a_c"));
 }
 
-TEST_CASE("texts that are no patterns", "[names]") {
+TEST_CASE("texts that are not patterns", "[names]") {
     for (const char* text : {"*", "a)", "(a", "[a", "[]", "+b", "[z-a]", "a\\"})
         CHECK_FALSE(isPattern(text));
     CHECK_FALSE(isPattern(std::string(80, '('))); // nested beyond reason

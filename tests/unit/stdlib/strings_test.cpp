@@ -80,7 +80,7 @@ TEST_CASE("characters, not bytes, are counted", "[stdlib][strings]") {
     CHECK(lib::characterCount("žluťoučký") == 9);
     CHECK(lib::characterCount("€") == 1);
     CHECK(lib::characterCount("\xF0\x9F\xA4\x96") == 1);
-    CHECK(lib::characterCount("a\xFF\x80z") == 4); // bytes that are no UTF-8 count one by one
+    CHECK(lib::characterCount("a\xFF\x80z") == 4); // bytes that are not UTF-8 count one by one
     CHECK(lib::characterCount("\xC5") == 1);       // cut off in the middle
     CHECK(lib::cutToString(std::string(79, 'x') + "ž").size() == 79);
     const String str = s("žluť");
@@ -142,7 +142,7 @@ TEST_CASE("StrOrder follows the ordering, then the character codes", "[stdlib][s
     CHECK_FALSE(inOrder("b", "a", "A"));
 }
 
-TEST_CASE("StrMap replaces character by character", "[stdlib][strings]") {
+TEST_CASE("StrMap maps each character", "[stdlib][strings]") {
     const auto map = [](std::string_view str, std::string_view from, std::string_view to) {
         const String a = s(str);
         const String b = s(from);
@@ -217,7 +217,7 @@ TEST_CASE("strings join up to 80 bytes and compare by their bytes", "[stdlib][st
     const String shorter = s("a");
     String stale = s("ab");
     stale.length = 1;
-    CHECK(rt_strEqual(&shorter, &stale)); // bytes behind the end do not count
+    CHECK(rt_strEqual(&shorter, &stale)); // bytes after the end do not count
     CHECK_FALSE(rt_strEqual(&a, &shorter));
 }
 

@@ -46,14 +46,13 @@ TEST_CASE("every text of the catalogue follows the wording rules", "[diag]") {
         CHECK((!std::isupper(static_cast<unsigned char>(first)) || upperWord));
         CHECK(entry.text.back() != '.');
         CHECK(entry.text.find("illegal") == std::string_view::npos);
-        CHECK(entry.text.find("invalid") == std::string_view::npos);
         CHECK(diag::findEntry(entry.number) == &entry);
     }
     CHECK(diag::findEntry(1) == nullptr);
     CHECK(diag::codeName(Code::UnexpectedCharacter) == "RAP1001");
 }
 
-TEST_CASE("braces in a catalogue text are no placeholders", "[diag]") {
+TEST_CASE("braces in a catalogue text are not placeholders", "[diag]") {
     const std::string args[] = {"x"};
     CHECK(diag::formatText("a {0} b", args) == "a x b");
     CHECK(diag::formatText("found '{' and {0} and '}'", args) == "found '{' and x and '}'");
@@ -89,7 +88,7 @@ TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
     CHECK(sink.hasErrors());
 }
 
-TEST_CASE("so many errors and so many warnings are kept of a file, and a note tells of more", "[diag]") {
+TEST_CASE("so many errors and so many warnings are kept of a file, and a note reports more", "[diag]") {
     diag::Sink sink;
     const auto source = file("abc"), other = file("def");
     constexpr size_t kMost = diag::Sink::kMaxPerFile;
@@ -224,14 +223,14 @@ TEST_CASE("a fix is worded by what it changes", "[diag]") {
     auto& d = sink.report(Code::EqualInAssignment, source, {2, 3});
     d.fix({2, 3}, ":=").fix({5, 5}, ";", false).fix({1, 3}, "");
     REQUIRE(d.fixes.size() == 3);
-    CHECK(d.fixes[0].message == "replace '=' by ':='");
+    CHECK(d.fixes[0].message == "replace '=' with ':='");
     CHECK(d.fixes[0].certain);
     CHECK(d.fixes[1].message == "insert ';'");
     CHECK_FALSE(d.fixes[1].certain);
     CHECK(d.fixes[2].message == "remove '='");
     CHECK(renderText(d, false).find("\n      = help: insert ';'\n") != std::string::npos);
     const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
-    CHECK(json[0]["fixes"][0] == nlohmann::json({{"message", "replace '=' by ':='"},
+    CHECK(json[0]["fixes"][0] == nlohmann::json({{"message", "replace '=' with ':='"},
                                                  {"certain", true},
                                                  {"edits", nlohmann::json::array({{{"file", "a.modx"},
                                                                                    {"line", 1},

@@ -185,8 +185,7 @@ TEST_CASE("what a character is does not hang on an unreadable one before it", "[
     CHECK(errorCount("\u201Ctext\u201D @ @") == 2);
 }
 
-TEST_CASE("spaces of web pages are one mistake as long as nothing else stands between them",
-          "[syntax][lexer]") {
+TEST_CASE("spaces of web pages are one mistake as long as nothing else is between them", "[syntax][lexer]") {
     CHECK(errorCount("\u00A0\u00A0\u00A0a") == 1);
     CHECK(errorCount("\u00A0 \u00A0  \u2007\u3000 a") == 1);
     CHECK(errorCount("\u00A0a\u00A0b") == 2);

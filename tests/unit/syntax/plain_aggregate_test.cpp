@@ -133,7 +133,7 @@ TEST_CASE("a file with mistakes has all its tokens", "[syntax][tree]") {
     }
 }
 
-TEST_CASE("what is more than literals is no plain aggregate", "[syntax][tree]") {
+TEST_CASE("an aggregate of more than literals is not plain", "[syntax][tree]") {
     for (const char* value : {"[1+1]", "[+5]", "[a]", "[(1)]", "[NOT TRUE]", "[-a]", "[f(1)]", "[1]+[2]",
                               "[0x10]", "[1E39]", "[9E99]", "[1234567890123]", "[1,<EXP>]", "5", "\"a\""}) {
         INFO(value);

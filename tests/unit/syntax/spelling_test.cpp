@@ -1,4 +1,4 @@
-// Distance between words: the measure behind "did you mean".
+// Distance between words: the measure of "did you mean".
 
 #include "frontend/source/spelling.h"
 
@@ -44,7 +44,7 @@ std::vector<std::string> words() {
 
 } // namespace
 
-TEST_CASE("the distance of two words is told up to the limit", "[source]") {
+TEST_CASE("the distance of two words is given up to the limit", "[source]") {
     const std::vector<std::string> all = words();
     for (const std::string& a : all) {
         for (const std::string& b : all) {

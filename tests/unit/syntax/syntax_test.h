@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of lexer and parser share.
+// The common part of the tests of lexer and parser.
 
 #include "frontend/syntax/parser.h"
 

@@ -32,7 +32,7 @@ std::string outline(const syntax::SyntaxTree& tree) {
     return out;
 }
 
-/// What follows is the usual text of a module: instructions, blocks, a handler, other routines.
+/// The text that follows is that of a usual module: instructions, blocks, a handler, other routines.
 struct Frame {
     const char* before;
     const char* after;

@@ -1,0 +1,66 @@
+// Activation: language server, debugger, tasks, tests, commands.
+
+import * as vscode from "vscode";
+import { LanguageClient, LanguageClientOptions, ServerOptions, State } from "vscode-languageclient/node";
+import { registerCommands } from "./commands";
+import { registerDebugger } from "./debugger";
+import { rapidcPath, showProblem } from "./rapidc";
+import { registerTasks } from "./tasks";
+import { registerTests } from "./testing";
+
+let client: LanguageClient | undefined;
+
+function settings(): { warnings: string[] } {
+    return { warnings: vscode.workspace.getConfiguration("rapidc").get<string[]>("warnings") ?? [] };
+}
+
+function makeClient(context: vscode.ExtensionContext): LanguageClient {
+    const server: ServerOptions = { command: rapidcPath(), args: ["lsp"] };
+    const watcher = vscode.workspace.createFileSystemWatcher("**/*.{mod,modx,sys,sysx,prg,cfg,pgf,MOD,SYS,CFG,PGF}");
+    context.subscriptions.push(watcher);
+    const options: LanguageClientOptions = {
+        documentSelector: [{ language: "rapid" }, { language: "abb-cfg" }, { pattern: "**/*.pgf" }],
+        initializationOptions: settings(),
+        synchronize: { configurationSection: "rapidc", fileEvents: watcher },
+    };
+    return new LanguageClient("rapidc", "RAPID", server, options);
+}
+
+async function startServer(context: vscode.ExtensionContext): Promise<void> {
+    client = makeClient(context);
+    try {
+        await client.start();
+    } catch (error) {
+        client = undefined;
+        await showProblem(`the language server "${rapidcPath()} lsp" cannot be started. ${String(error)}`);
+    }
+}
+
+async function stopServer(): Promise<void> {
+    const running = client;
+    client = undefined;
+    if (running && running.state !== State.Stopped) await running.stop();
+}
+
+export async function activate(context: vscode.ExtensionContext): Promise<void> {
+    registerTasks(context);
+    registerDebugger(context);
+    registerTests(context);
+    registerCommands(context);
+    context.subscriptions.push(
+        vscode.commands.registerCommand("rapidc.restartServer", async () => {
+            await stopServer();
+            await startServer(context);
+        }),
+        vscode.workspace.onDidChangeConfiguration(async (change) => {
+            if (!change.affectsConfiguration("rapidc.path")) return;
+            await stopServer();
+            await startServer(context);
+        }),
+    );
+    await startServer(context);
+}
+
+export async function deactivate(): Promise<void> {
+    await stopServer();
+}

@@ -1,0 +1,196 @@
+#include "tools/lsp/serve.h"
+
+#include "config/json_text.h"
+#include "tools/lsp/frames.h"
+#include "tools/lsp/server.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <poll.h>
+#include <set>
+#include <thread>
+#include <unistd.h>
+
+namespace lsp {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A message that was read; no value: it is no JSON.
+using Message = std::optional<Json>;
+
+/// Messages on their way from the reader to the worker, and the requests that were cancelled since.
+class Inbox {
+  public:
+    void put(Message message) {
+        const std::lock_guard lock(mutex_);
+        messages_.push_back(std::move(message));
+        arrived_.notify_one();
+    }
+    void close() {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        arrived_.notify_one();
+    }
+    void cancel(const Json& id) {
+        const std::lock_guard lock(mutex_);
+        const auto same = [&](const Message& m) {
+            return m && m->is_object() && m->contains("method") && m->value("id", Json()) == id;
+        };
+        if (std::any_of(messages_.begin(), messages_.end(), same)) cancelled_.insert(id.dump());
+    }
+    /// Once for each cancelled request.
+    bool takeCancelled(const Json& id) {
+        const std::lock_guard lock(mutex_);
+        return !cancelled_.empty() && cancelled_.erase(id.dump()) > 0;
+    }
+    bool hasMessages() {
+        const std::lock_guard lock(mutex_);
+        return !messages_.empty() || closed_;
+    }
+    /// Waits for the next message until `deadline`. False: there is none; `ended` when there will be none any more.
+    bool take(Message& message, Clock::time_point deadline, bool& ended) {
+        std::unique_lock lock(mutex_);
+        arrived_.wait_until(lock, deadline, [&] { return !messages_.empty() || closed_; });
+        ended = messages_.empty() && closed_;
+        if (messages_.empty()) return false;
+        message = std::move(messages_.front());
+        messages_.pop_front();
+        return true;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable arrived_;
+    std::deque<Message> messages_;
+    std::set<std::string> cancelled_;
+    bool closed_ = false;
+};
+
+Message parse(const std::string& body) {
+    Json json = rapid::config::tryParseJson(body);
+    if (json.is_discarded()) json = rapid::config::tryParseJson(withoutSingleSurrogates(body));
+    if (json.is_discarded()) return {};
+    return json;
+}
+
+bool isGone(int64_t process) {
+    return process > 1 && kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+}
+
+/// Reads standard input to its end. `client`: the process to watch, once it is known.
+class Reader {
+  public:
+    Reader(Inbox& inbox, const std::atomic<int64_t>& client) : inbox_(inbox), client_(client) {}
+
+    void run() {
+        constexpr int kWatchMilliseconds = 2000;
+        std::string buffer(size_t{1} << 16, '\0');
+        while (!frames_.isBroken()) {
+            pollfd input{STDIN_FILENO, POLLIN, 0};
+            const int ready = poll(&input, 1, kWatchMilliseconds);
+            if (ready < 0 && errno != EINTR) break;
+            if (ready <= 0) {
+                if (isGone(client_)) break;
+                continue;
+            }
+            const ssize_t count = read(STDIN_FILENO, buffer.data(), buffer.size());
+            if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+            if (count <= 0) break;
+            frames_.feed(std::string_view(buffer).substr(0, static_cast<size_t>(count)));
+            while (const auto body = frames_.next())
+                take(parse(*body));
+        }
+        inbox_.close();
+    }
+
+  private:
+    void take(Message message) {
+        if (message && message->is_object() && message->value("method", Json()) == "$/cancelRequest")
+            if (const Json* id = at(*message, "params.id")) return inbox_.cancel(*id);
+        inbox_.put(std::move(message));
+    }
+
+    Inbox& inbox_;
+    const std::atomic<int64_t>& client_;
+    FrameReader frames_;
+};
+
+/// Writes frames until the client has closed its end.
+class Writer {
+  public:
+    void send(const Json& message) {
+        const std::string bytes = frame(rapid::config::textOf(message));
+        for (size_t sent = 0; sent < bytes.size() && !broken_;) {
+            const ssize_t count = write(STDOUT_FILENO, bytes.data() + sent, bytes.size() - sent);
+            if (count > 0)
+                sent += static_cast<size_t>(count);
+            else if (count < 0 && errno == EAGAIN)
+                waitForRoom();
+            else
+                broken_ = count == 0 || errno != EINTR;
+        }
+    }
+    bool isBroken() const { return broken_; }
+
+  private:
+    static void waitForRoom() {
+        pollfd output{STDOUT_FILENO, POLLOUT, 0};
+        poll(&output, 1, -1);
+    }
+    bool broken_ = false;
+};
+
+/// Messages in their order; when none is waiting, or when one has been waited for long enough, diagnostics. What takes long
+/// waits for a pause.
+void work(Server& server, Inbox& inbox, const Writer& writer, std::atomic<int64_t>& client) {
+    using std::chrono::milliseconds;
+    constexpr milliseconds kLongest(400), kPause(300), kIdle(100);
+    Clock::time_point upToDate = Clock::now(), lastMessage = upToDate;
+    const auto waiting = [&inbox] { return inbox.hasMessages(); };
+    bool ended = false;
+    while (!ended && !server.hasEnded() && !writer.isBroken()) {
+        if (server.isBehind() && (!waiting() || Clock::now() - upToDate > kLongest)) {
+            const bool quiet = Clock::now() - lastMessage >= kPause;
+            server.catchUp(quiet, waiting() ? std::function<bool()>() : waiting);
+            upToDate = Clock::now();
+        }
+        Message message;
+        const auto deadline = server.isBehind() ? lastMessage + kPause : Clock::now() + kIdle;
+        if (!inbox.take(message, deadline, ended)) continue;
+        if (!server.isBehind()) upToDate = Clock::now();
+        lastMessage = Clock::now();
+        if (message)
+            server.receive(*message);
+        else
+            server.receiveGarbage();
+        client = server.clientProcess();
+    }
+}
+
+} // namespace
+
+int serve(const rapid::workspace::Environment& environment, const std::vector<std::string>& warnings) {
+    std::signal(SIGPIPE, SIG_IGN);
+    // The reader may sit in read() when this ends; what it needs lives to the end of the process.
+    static auto& inbox = *new Inbox;
+    static auto& client = *new std::atomic<int64_t>(0);
+    static auto& reader = *new Reader(inbox, client);
+    Writer writer;
+    Server server(environment, [&writer](const Json& message) { writer.send(message); });
+    server.setCancelled([](const Json& id) { return inbox.takeCancelled(id); });
+    server.setWarnings(warnings);
+    std::thread([] { reader.run(); }).detach();
+    work(server, inbox, writer, client);
+    return server.exitStatus();
+}
+
+} // namespace lsp

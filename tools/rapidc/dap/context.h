@@ -1,0 +1,61 @@
+#pragma once
+// What the parts of a debugging session share.
+
+#include "tools/rapidc/dap/evaluator.h"
+#include "tools/rapidc/dap/messages.h"
+#include "tools/rapidc/dap/program.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rapidc::dap {
+
+/// How the client counts and what it understands.
+struct ClientFacts {
+    bool linesStartAt1 = true, columnsStartAt1 = true;
+    bool usesUris = false;
+    bool showsProgress = false;
+
+    int64_t lineOut(uint32_t line) const { return static_cast<int64_t>(line) - (linesStartAt1 ? 0 : 1); }
+    int64_t columnOut(uint32_t column) const {
+        return static_cast<int64_t>(column) - (columnsStartAt1 ? 0 : 1);
+    }
+    /// Lines that no text has become the first one.
+    uint32_t lineIn(int64_t line) const;
+};
+
+struct Context {
+    Client& client;
+    rt::Inbox& inbox;
+    ClientFacts facts;
+    std::unique_ptr<Program> program;     ///< null: nothing has been launched, or it has ended
+    std::unique_ptr<Evaluator> evaluator; ///< null without debugging
+    bool running = false;                 ///< the scheduler works
+    rt::Task* stopped = nullptr;          ///< the task whose stop the client knows of
+    /// The expression of a child of a variablesReference; throws a Refusal.
+    std::function<std::string(int64_t reference, const std::string& name)> expressionOf = {};
+
+    /// All of these throw a Refusal when the session is in another state.
+    rt::Controller& controller() const;
+    rt::Debugger& debugger() const;
+    /// The task with that number; a thread of the protocol.
+    rt::Task& task(int64_t thread) const;
+    static int64_t threadOf(const rt::Task& task) { return static_cast<int64_t>(task.index()) + 1; }
+    void requireStop() const;
+
+    /// Sources as the protocol describes them; null for a place without a file.
+    Json source(const std::string& file) const;
+    /// The path in a source of the client.
+    std::string pathIn(const Arguments& source) const;
+    /// "source", "line" and "column" of a place.
+    Json place(const rt::SourcePlace& place) const;
+};
+
+/// Answers a request; nothing when it will be answered later. Throws a Refusal.
+using Handler = std::function<std::optional<Json>(const Request& request, const Arguments& arguments)>;
+using Handlers = std::map<std::string, Handler>;
+
+} // namespace rapidc::dap

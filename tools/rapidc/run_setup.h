@@ -1,0 +1,22 @@
+#pragma once
+// What is done between the check of a program and its run, by `rapidc run` and by the debug adapter.
+
+#include "config/temporary.h"
+#include "runtime/host/run_options.h"
+
+#include <string>
+#include <vector>
+
+namespace rapidc {
+
+/// A folder may hold the stimulus its program is meant to be run with.
+void findStimulus(rt::RunOptions& options, const std::vector<std::string>& inputs);
+
+/// HOME of a backup for one run: a copy, so that the backup stays as it is. The folder of the copy; empty with a message
+/// when it cannot be made.
+std::string copyHome(const std::string& from, rapid::config::TemporaryFolder& folder, std::string& error);
+
+/// A pipe can be read once: what it holds is kept. False with a message when it cannot be read.
+bool readStimulus(rt::RunOptions& options, std::string& error);
+
+} // namespace rapidc
