@@ -74,7 +74,7 @@ class Candidate {
         return end && end->isUnconditional();
     }
 
-    /// What comes before the branch may be left out when it fails.
+    /// The instructions before the branch may be left out when it fails.
     bool hasNoEffects() const {
         return std::none_of(block_.begin(), branch_->getIterator(),
                             [](const llvm::Instruction& inst) { return inst.mayHaveSideEffects(); });
