@@ -26,6 +26,7 @@
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
 #include "codegen/short_loops.h"
+#include "codegen/slow_ways.h"
 #include "codegen/small_copies.h"
 #include "codegen/unchecked_rounds.h"
 
@@ -141,6 +142,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     });
     builder.registerOptimizerLastEPCallback([](llvm::ModulePassManager& passes, llvm::OptimizationLevel) {
         llvm::FunctionPassManager last;
+        last.addPass(SlowWays());
         last.addPass(FiniteSums());
         last.addPass(ColdConstants());
         passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(last)));
