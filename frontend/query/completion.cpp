@@ -89,6 +89,7 @@ class Completer {
             for (const LabelSymbol* label : scope_.labels())
                 add(*label, kBest, true);
             return;
+        case Expect::ModuleName: return modules();
         case Expect::Trap:
         case Expect::LateName:
             return routinesOf(cursor_.expect == Expect::Trap ? RoutineKind::Trap : RoutineKind::Proc);
@@ -175,8 +176,11 @@ class Completer {
     void statements() {
         constructs(statementConstructs());
         constructs(handlerConstructs());
+        instructions();
+    }
+    void instructions() {
         const bool rest = restOfLine();
-        for (const Symbol* symbol : scope_.visible(cancel_)) {
+        for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
             if (isCancelled(cancel_)) return;
             if (const RoutineSymbol* routine = routineOf(symbol)) {
                 if (routine->routineKind == RoutineKind::Proc) addCall(*routine, rest);
@@ -201,18 +205,44 @@ class Completer {
         item->snippet = escaped(routine.name) + (arguments.empty() ? "" : " " + arguments) + ";$0";
     }
 
+    /// What is known to be absent or present: of the type that the argument has.
+    void optionalParameters() {
+        if (!scope_.around().routine) return;
+        const Type* type = cursor_.type.type;
+        for (const DataSymbol* param : scope_.around().routine->params)
+            if (param->optional && (!type || (param->type.type && param->type.type->base() == type->base())))
+                add(*param, kBest, true);
+    }
+
     void values() {
-        const FitRules rules(cursor_);
+        if (cursor_.optionalParameter) return optionalParameters();
+        const std::vector<Cursor> wanted = alternatives();
+        std::vector<FitRules> rules(wanted.begin(), wanted.end());
         const bool callFollows = nextCharacter() == '(';
-        for (const Symbol* symbol : scope_.visible(cancel_)) {
+        for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
             if (isCancelled(cancel_)) return;
             if (symbol->kind == SymbolKind::Type || !matches(symbol->name)) continue;
-            const Fit fit = rules.of(*symbol);
+            Fit fit = Fit::Misfit;
+            for (const FitRules& one : rules)
+                fit = std::min(fit, one.of(*symbol));
             if (fit == Fit::Misfit) continue;
             addValue(*symbol, fit, callFollows);
         }
         if (cursor_.mode == ParamMode::In && cursor_.expect == Expect::Expression) constants();
         if (options_.newData) newPoint();
+    }
+
+    /// What is expected, once for each parameter that the argument may belong to.
+    std::vector<Cursor> alternatives() const {
+        std::vector<Cursor> all(std::max<size_t>(1, cursor_.alternatives.size()), cursor_);
+        for (size_t i = 0; i < cursor_.alternatives.size(); ++i) {
+            const DataSymbol& param = *cursor_.alternatives[i];
+            all[i].anyType = param.type.type && param.type.type->kind == TypeKind::AnyType;
+            all[i].type = all[i].anyType ? DataType{} : param.type;
+            all[i].mode = param.mode;
+            all[i].accepts = param.accepts;
+        }
+        return all;
     }
 
     void addValue(const Symbol& symbol, Fit fit, bool callFollows) {
@@ -282,7 +312,7 @@ class Completer {
         for (const TokenKind word : cursor_.keywords)
             keyword(word);
         const bool parameter = !cursor_.keywords.empty();
-        for (const Symbol* symbol : scope_.visible(cancel_)) {
+        for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
             const TypeSymbol* type = typeSymbolOf(symbol);
             if (!type || !type->type || type->type->kind == TypeKind::AnyType || type->name == "signalxx")
                 continue;
@@ -331,8 +361,15 @@ class Completer {
         }
     }
 
+    void modules() {
+        if (!file_.task) return;
+        for (const Module* module : file_.task->modules)
+            if (!module->name.empty() && matches(module->name))
+                append(module->name, ItemKind::Module, kBest, module->name);
+    }
+
     void routinesOf(RoutineKind kind) {
-        for (const Symbol* symbol : scope_.visible(cancel_)) {
+        for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
             const RoutineSymbol* routine = routineOf(symbol);
             if (routine && routine->routineKind == kind) add(*symbol, rankOf(*symbol), !routine->predefined);
         }
@@ -345,6 +382,7 @@ class Completer {
     void keywords() {
         for (const TokenKind word : cursor_.keywords)
             keyword(word);
+        if (cursor_.instruction) instructions();
     }
 
     const Snapshot& snapshot_;

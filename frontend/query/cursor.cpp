@@ -75,13 +75,22 @@ class CursorReader {
 
     void inString() {
         const TokenIndex token = tokenBefore(file_, offset_);
-        if (token == kNoToken || token == 0 || kind(token - 1) != TokenKind::Percent) return;
+        if (token == kNoToken || token == 0) return;
         SourceRange range = tree_.range(token);
+        const bool late = kind(token - 1) == TokenKind::Percent;
+        if (!late && !namesModule(range.begin)) return;
         ++range.begin;
         if (range.end > offset_ && range.end > range.begin && file_.text()[range.end - 1] == '"') --range.end;
-        cursor_.expect = Expect::LateName;
+        cursor_.expect = late ? Expect::LateName : Expect::ModuleName;
         cursor_.word = range;
         cursor_.prefix = file_.text().substr(range.begin, offset_ - range.begin);
+    }
+    /// The string is the argument of a parameter such as that of EraseModule.
+    bool namesModule(uint32_t string) const {
+        const Cursor outer = CursorReader(scope_, string).read();
+        if (!outer.call || !outer.call->routine || outer.call->parameter < 0) return false;
+        const auto& params = outer.call->routine->params;
+        return equalsNoCase(params[static_cast<size_t>(outer.call->parameter)]->name, "MODULENAME");
     }
 
     bool onNewLine(TokenIndex t) const {
@@ -111,12 +120,18 @@ class CursorReader {
             if (kModeWords.has(before) && (t < 2 || !kBeforeParameter.has(kind(t - 2))))
                 return localStart(t - 1);
             // A ';' is missing: two values in a row, on two lines.
-            const bool word =
-                t == at_ ? cursor_.word.end > cursor_.word.begin || depth == 0 : isWord(kind(t));
+            const bool word = t == at_ ? !beginsWithLiteral() : isWord(kind(t));
             if (depth == 0 && word && endsValue(before) && onNewLine(t) && (t != at_ || !continuesHeader(t)))
                 return t;
         }
         return t;
+    }
+    /// No letters are written at the offset, and a literal begins there: it is an argument.
+    bool beginsWithLiteral() const {
+        const TokenKind k = kind(at_);
+        return cursor_.word.begin == cursor_.word.end && at_ < tree_.tokens.size() &&
+               tree_.tokens[at_].offset == offset_ &&
+               (k == TokenKind::StringLiteral || k == TokenKind::NumLiteral);
     }
     /// After `PROC name` and its like no instruction begins yet.
     bool continuesHeader(TokenIndex t) const {
@@ -169,10 +184,20 @@ class CursorReader {
             if (node->kind == NodeKind::Record && tree_.range(*node).begin < offset_ &&
                 offset_ < tree_.range(*node).end)
                 return type();
+        if (!around.routineDecl && inOpenRecord()) return type();
         if (around.routineDecl || (around.module && !around.module->decl))
             cursor_.expect = Expect::Statement;
         else
             cursor_.expect = around.module ? Expect::Declaration : Expect::File;
+    }
+
+    /// After RECORD and before its end, which may not be written yet.
+    bool inOpenRecord() const {
+        constexpr TokenSet kOther = {TokenKind::KwEndrecord, TokenKind::KwVar,     TokenKind::KwPers,
+                                     TokenKind::KwConst,     TokenKind::KwEndproc, TokenKind::KwModule};
+        for (TokenIndex t = at_; t-- > 0 && !kOther.has(kind(t));)
+            if (kind(t) == TokenKind::KwRecord) return t + 1 < at_;
+        return false;
     }
 
     void data(TokenIndex s) {
@@ -269,13 +294,23 @@ class CursorReader {
                 return classify(t);
         }
         expression(s + 1, boolean);
+        cursor_.instruction = cursor_.expect == Expect::Keyword && depth == 0;
     }
 
+    /// Of the TEST around a CASE, which need not be complete: the value that ends before its first CASE.
     DataType subject() const {
-        const TestStmt* test = nullptr;
-        for (const Node* node : nodesAt(file_, offset_))
-            if (node->kind == NodeKind::Test) test = &as<TestStmt>(*node);
-        return test && test->subject ? typeOfExpr(scope_, *test->subject) : DataType{};
+        int depth = 0;
+        TokenIndex firstCase = kNoToken;
+        for (TokenIndex t = at_; t-- > 0;) {
+            const TokenKind k = kind(t);
+            if (k == TokenKind::KwEndtest) ++depth;
+            if (k == TokenKind::KwProc || k == TokenKind::KwFunc || k == TokenKind::KwTrap) break;
+            if (k == TokenKind::KwCase && depth == 0) firstCase = t;
+            if (k != TokenKind::KwTest || depth-- > 0) continue;
+            return firstCase == kNoToken || firstCase < t + 2 ? DataType{}
+                                                              : typeOfChain(scope_, firstCase - 1);
+        }
+        return {};
     }
 
     void loop(TokenIndex s, const DataType& number) {

@@ -36,6 +36,7 @@ enum class Expect : uint8_t {
     OptionalName, ///< after `\`; see `call`
     Label,        ///< after GOTO
     Trap,         ///< after CONNECT x WITH
+    ModuleName,   ///< in a string that names a module
     LateName,     ///< in a string within `%...%`
     Keyword       ///< one of `keywords`
 };
@@ -48,13 +49,14 @@ struct Cursor {
     bool anyType = false;    ///< what the parameter takes has no certain type
     sema::ParamClass accepts = sema::ParamClass::Any;
     syntax::ParamMode mode = syntax::ParamMode::In; ///< In: any expression
-    bool deferredSignal = false;
-    std::optional<CallContext> call;         ///< the innermost argument list
-    const sema::Type* record = nullptr;      ///< Component: of the value before the dot
-    std::vector<syntax::TokenKind> keywords; ///< that may follow, besides
-    bool errorNumber = false;                ///< in the list of an ERROR clause, or compared with ERRNO
-    bool inHandler = false;
-    int openLoops = 0;
+    std::optional<CallContext> call;                ///< the innermost argument list
+    const sema::Type* record = nullptr;             ///< Component: of the value before the dot
+    std::vector<syntax::TokenKind> keywords;        ///< that may follow, besides
+    /// Required parameters of which one is given here: `signaldi Signal | PERS bool PersBool`. Empty: there is one only.
+    std::vector<const sema::DataSymbol*> alternatives;
+    bool instruction = false;       ///< Keyword: an instruction may begin here, too
+    bool optionalParameter = false; ///< after `?` and in Present: an optional parameter of the routine
+    bool errorNumber = false;       ///< in the list of an ERROR clause, or compared with ERRNO
 };
 
 /// `scope` is that of the offset.

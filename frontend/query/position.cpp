@@ -92,6 +92,13 @@ bool contains(const SyntaxTree& tree, const Node& node, uint32_t offset) {
     return range.begin <= offset && offset <= range.end;
 }
 
+/// The end word of a routine is there.
+bool hasEnd(const SyntaxTree& tree, const Decl& routine) {
+    if (routine.last >= tree.tokens.size() || routine.last <= routine.first) return false;
+    const TokenKind end = tree.tokens[routine.last].kind;
+    return end == TokenKind::KwEndproc || end == TokenKind::KwEndfunc || end == TokenKind::KwEndtrap;
+}
+
 } // namespace
 
 void forEachNode(const Node& node, const std::function<void(const Node&)>& visit) {
@@ -152,10 +159,12 @@ Surroundings surroundings(const FileView& file, uint32_t offset) {
         return found;
     }
     for (const Decl* decl : declsNear(tree, *found.module->decl, offset)) {
+        if (decl->first == kNoToken || tree.tokens[decl->first].offset >= offset) continue;
+        found.routineDecl = nullptr; // the one before ends where this one begins
         if (decl->kind != NodeKind::Routine) continue;
-        const SourceRange range = tree.range(*decl);
-        // The end of ENDPROC is outside of the routine.
-        if (range.begin < offset && offset < range.end) found.routineDecl = &as<RoutineDecl>(*decl);
+        // The end of ENDPROC is outside of the routine; without it the routine is still being written.
+        if (offset < tree.range(*decl).end || !hasEnd(tree, *decl))
+            found.routineDecl = &as<RoutineDecl>(*decl);
     }
     if (found.routineDecl)
         for (const sema::RoutineSymbol* routine : found.module->routines)

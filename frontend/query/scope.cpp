@@ -1,5 +1,6 @@
 #include "frontend/query/scope.h"
 
+#include "frontend/query/fuzzy.h"
 #include "frontend/sema/names.h"
 #include "frontend/syntax/tree_walk.h"
 
@@ -17,7 +18,9 @@ Scope::Scope(const Snapshot& snapshot, const FileView& file, uint32_t offset)
 bool Scope::reaches(const DataSymbol& data) const {
     if (data.storage != Storage::LoopVariable || !data.decl) return true;
     const SourceRange loop = file_.tree->range(*data.decl);
-    return loop.begin <= offset_ && offset_ <= loop.end;
+    const bool ended = data.decl->last < file_.tree->tokens.size() &&
+                       file_.tree->tokens[data.decl->last].kind == TokenKind::KwEndfor;
+    return loop.begin <= offset_ && (offset_ <= loop.end || !ended);
 }
 
 /// Calls `visit` for the data of the routine, the innermost last declared first, until it returns true.
@@ -103,11 +106,13 @@ const LabelSymbol* Scope::findLabel(std::string_view name) const {
     return nullptr;
 }
 
-std::vector<const Symbol*> Scope::visible(const Cancel* cancel) const {
+std::vector<const Symbol*> Scope::visible(const Cancel* cancel, std::string_view letters) const {
     std::vector<const Symbol*> found;
     std::unordered_set<std::string> hidden;
     const auto add = [&](const Symbol& symbol) {
-        if (!symbol.name.empty() && hidden.insert(foldName(symbol.name)).second) found.push_back(&symbol);
+        if (!symbol.name.empty() && fuzzyMatch(letters, symbol.name) &&
+            hidden.insert(foldName(symbol.name)).second)
+            found.push_back(&symbol);
         return false;
     };
     inRoutine(add);

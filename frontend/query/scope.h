@@ -14,8 +14,10 @@ class Scope {
     const sema::TypeSymbol* findType(std::string_view name) const;
     /// A label of the routine.
     const sema::LabelSymbol* findLabel(std::string_view name) const;
-    /// Every symbol that is seen here, inner ones first; those that another one hides are left out. Labels are not among them.
-    std::vector<const sema::Symbol*> visible(const Cancel* cancel = nullptr) const;
+    /// Every symbol that is seen here, inner ones first; those that another one hides are left out.
+    /// With `letters` only names that they match (fuzzy.h). Labels are not among them.
+    std::vector<const sema::Symbol*> visible(const Cancel* cancel = nullptr,
+                                             std::string_view letters = {}) const;
     std::vector<const sema::LabelSymbol*> labels() const;
 
     const Surroundings& around() const { return around_; }
