@@ -162,6 +162,9 @@ const steps = {
         await bench.page.keyboard.press("F5");
         await bench.page.waitForSelector(".debug-toolbar", { timeout: patience });
         await bench.expectText(".debug-call-stack", /main/, "call stack");
+        await bench.expectText(".debug-variables", /Locals.*Persistents/s, "scopes");
+        if (!/\bn\b/.test(await bench.text(".debug-variables")))
+            await bench.page.locator('.debug-variables .monaco-list-row:has-text("Locals")').click();
         await bench.expectText(".debug-variables", /\bn\b.*0/s, "locals");
         await bench.shot("breakpoint");
         await bench.page.keyboard.press("F5");
