@@ -2,9 +2,11 @@
 
 #include "frontend/project/files.h"
 #include "frontend/project/neighbours.h"
+#include "frontend/source/same_ends.h"
 #include "frontend/workspace/judge.h"
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 
 namespace rapid::workspace {
@@ -36,7 +38,6 @@ bool Program::update() {
         takeChanges();
     else
         return false;
-    judge();
     static std::atomic<uint64_t> last = 0;
     generation_ = ++last;
     return true;
@@ -65,6 +66,8 @@ void Program::load() {
     loading_ = loaded_->sink.take();
     session_ = std::make_unique<sema::Session>(loaded_->options);
     session_->open(loaded_->tasks);
+    judgement_.clear();
+    judged_ = 0;
     listFiles();
     changed_.clear();
     stale_ = false;
@@ -92,12 +95,35 @@ void Program::takeChanges() {
         if (file->isEncrypted()) return load();
         if (file->text() == modules_[path]->text() && file->encoding() == modules_[path]->encoding())
             continue;
+        moveJudgement(*modules_[path], file);
         modules_[path] = file;
         for (sema::TaskInput& task : loaded_->tasks)
             for (auto& known : task.files)
                 if (known->path() == path) known = file;
         session_->change(file);
     }
+}
+
+const std::vector<diag::Diagnostic>& Program::diagnostics() {
+    if (judged_ == generation_) return diagnostics_;
+    const auto start = std::chrono::steady_clock::now();
+    judge();
+    keepJudgement();
+    judged_ = generation_;
+    judgeMilliseconds_ =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return diagnostics_;
+}
+
+bool Program::isSlowToJudge() const {
+    constexpr double kSlow = 20;
+    constexpr size_t kLarge = size_t{2} << 20; // bytes
+    if (judged_ == generation_) return false;
+    if (judged_ != 0) return judgeMilliseconds_ > kSlow;
+    size_t size = 0;
+    for (const auto& [path, file] : modules_)
+        size += file->text().size();
+    return size > kLarge;
 }
 
 void Program::judge() {
@@ -109,6 +135,50 @@ void Program::judge() {
     judge.finish(session_->program(), loaded_->tasks);
     if (!isFolder_) project::noteNeighbours(sink, {root_});
     diagnostics_ = sink.sorted();
+}
+
+namespace {
+/// What the check itself never says.
+bool isOfJudge(const diag::Diagnostic& d) {
+    return d.code == diag::Code::BuiltinNotImplemented || d.code == diag::Code::BadDirective ||
+           d.code == diag::Code::UnknownWarning || static_cast<int>(d.code) / 1000 == 8;
+}
+} // namespace
+
+void Program::keepJudgement() {
+    judgement_.clear();
+    for (const diag::Diagnostic& d : diagnostics_)
+        if (d.file && isOfJudge(d) && modules_.contains(d.file->path()))
+            judgement_[d.file->path()].push_back(d);
+}
+
+// Places before and after the edit are known; what it touches is left out, and so is what points to other places.
+void Program::moveJudgement(const SourceFile& before, const std::shared_ptr<const SourceFile>& now) {
+    const auto found = judgement_.find(now->path());
+    if (found == judgement_.end()) return;
+    const auto [head, tail] = sameEnds(before.text(), now->text());
+    const auto shift = static_cast<uint32_t>(now->text().size() - before.text().size()); // modulo 2^32
+    std::vector<diag::Diagnostic> moved;
+    for (diag::Diagnostic& d : found->second) {
+        const bool above = d.range.end <= head, below = d.range.begin >= before.text().size() - tail;
+        if (!above && !below) continue;
+        if (below) d.range = {d.range.begin + shift, d.range.end + shift};
+        d.file = now;
+        d.notes.clear();
+        d.fixes.clear();
+        moved.push_back(std::move(d));
+    }
+    found->second = std::move(moved);
+}
+
+std::vector<diag::Diagnostic> Program::quickDiagnostics(const std::string& path) const {
+    diag::Sink sink;
+    for (const auto& all : {loading_, session_->diagnostics()})
+        for (const diag::Diagnostic& d : all)
+            if (d.file && d.file->path() == path) sink.add(std::span(&d, 1));
+    lint::applyLevels(loaded_->warningLevels, sink);
+    if (const auto kept = judgement_.find(path); kept != judgement_.end()) sink.add(kept->second);
+    return sink.sorted();
 }
 
 bool Program::reads(const std::string& path) const {

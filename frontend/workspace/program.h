@@ -49,8 +49,14 @@ class Program {
     /// What was loaded beside the modules: options of the check, configuration texts, problems with options. Its `program` is
     /// empty and its `tasks` are the files as they are now.
     const Compilation& loaded() const { return *loaded_; }
-    /// As `rapidc check` reports them, sorted by file and place.
-    const std::vector<diag::Diagnostic>& diagnostics() const { return diagnostics_; }
+    /// As `rapidc check` reports them, sorted by file and place. Takes a look at the whole program when something has changed
+    /// since the last time.
+    const std::vector<diag::Diagnostic>& diagnostics();
+    /// Whether diagnostics() would take long: a program of some 100,000 lines.
+    bool isSlowToJudge() const;
+    /// The same for one module without that look: messages of the check are those of now, warnings of 8xxx those of the last
+    /// look as far as their places are still there.
+    std::vector<diag::Diagnostic> quickDiagnostics(const std::string& path) const;
 
     /// Whether a path is a module, a configuration or another file that was read for the program.
     bool reads(const std::string& path) const;
@@ -65,6 +71,8 @@ class Program {
     void load();
     void takeChanges();
     void judge();
+    void keepJudgement();
+    void moveJudgement(const SourceFile& before, const std::shared_ptr<const SourceFile>& now);
     void listFiles();
 
     std::string root_;
@@ -75,6 +83,9 @@ class Program {
     std::unique_ptr<sema::Session> session_;
     std::vector<diag::Diagnostic> loading_; ///< what was wrong before the check
     std::vector<diag::Diagnostic> diagnostics_;
+    std::map<std::string, std::vector<diag::Diagnostic>> judgement_; ///< what judge() has added, by path
+    uint64_t judged_ = 0;                                            ///< generation of `diagnostics_`
+    double judgeMilliseconds_ = 0;                                   ///< what the last look took
     std::map<std::string, std::shared_ptr<const SourceFile>, std::less<>> modules_; ///< by path
     std::map<std::string, std::string> others_; ///< configurations, settings ... by path
     std::map<std::string, bool> changed_;       ///< paths of modules

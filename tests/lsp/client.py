@@ -48,7 +48,7 @@ class Client:
 
     def __init__(self, arguments=(), environment=None):
         self.process = subprocess.Popen([RAPIDC, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
+                                        stderr=(None if os.environ.get("LSP_STDERR") else subprocess.PIPE), env={**os.environ, **(environment or {})})
         self.messages = queue.Queue()
         self.notifications = []
         self.answers = {}
@@ -171,7 +171,7 @@ class Client:
 
     def wait(self):
         status = self.process.wait(timeout=HANGS_AFTER_S)
-        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+        for stream in filter(None, (self.process.stdin, self.process.stdout, self.process.stderr)):
             try:
                 stream.close()
             except BrokenPipeError:
@@ -250,7 +250,7 @@ class LspCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, True)
         self.cache = os.path.join(self.folder, "cache")
 
-    def client(self, *arguments):
+    def connect(self, *arguments):
         client = Client(arguments, {"XDG_CACHE_HOME": self.cache, "RAPIDC_CACHE": ""})
         self.addCleanup(client.end)
         return client
@@ -269,7 +269,7 @@ class LspCase(unittest.TestCase):
     def opened(self, text, name="m.modx", folders=True):
         """A client with one module open in a folder; the client and the URI."""
         path = self.write(name, text)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()] if folders else [])
         return client, client.open(path, text)
 

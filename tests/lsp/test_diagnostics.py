@@ -75,7 +75,7 @@ class Push(LspCase):
 
     def test_close_returns_to_the_text_on_disk(self):
         path = self.write("m.modx", RIGHT)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         document = client.open(path, WRONG)
         self.assertEqual(len(client.published(document, 1)), 1)
@@ -84,7 +84,7 @@ class Push(LspCase):
         self.assertNotIn("version", client.diagnostics[document])
 
     def test_close_of_a_file_that_was_never_saved(self):
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         document = client.open(os.path.join(self.work(), "new.modx"), WRONG)
         self.assertEqual(len(client.published(document, 1)), 1)
@@ -92,7 +92,7 @@ class Push(LspCase):
         self.assertEqual(client.next_published(document), [])
 
     def test_documents_that_are_no_files(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         document = client.open("untitled:Untitled-1", WRONG)
         self.assertEqual(self.codes(client.published(document, 1)), ["RAP2104"])
@@ -109,7 +109,7 @@ class Push(LspCase):
 
     def test_the_whole_folder_is_reported(self):
         wrong = self.write("wrong.modx", WRONG.replace("MODULE m", "MODULE w").replace("main", "other"))
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         self.assertEqual(self.codes(client.published(uri(wrong))), ["RAP2104"])
 
@@ -117,7 +117,7 @@ class Push(LspCase):
         main = "MODULE m\n  PROC main()\n    helper 1;\n  ENDPROC\nENDMODULE\n"
         helper = "MODULE h\n  PROC helper(num n)\n    TPWrite NumToStr(n, 0);\n  ENDPROC\nENDMODULE\n"
         paths = self.write("m.modx", main), self.write("h.modx", helper)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         first, second = client.open(paths[0], main), client.open(paths[1], helper)
         self.assertEqual(client.published(first, 1), [])
@@ -150,7 +150,7 @@ class Push(LspCase):
                 client.change(document, version, source)
                 text = source
             found = client.published(document, version)
-            fresh = self.client()
+            fresh = self.connect()
             fresh.initialize([self.work()])
             again = fresh.open(os.path.join(self.work(), "m.modx"), text)
             self.assertEqual(found, fresh.published(again, 1), text)
@@ -167,7 +167,7 @@ class Encodings(LspCase):
     TEXT = 'MODULE m\n  PROC main()\n    TPWrite "žluť 😀" + 1;\n  ENDPROC\nENDMODULE\n'
 
     def found(self, encodings, result):
-        client = self.client()
+        client = self.connect()
         capabilities = {**CAPABILITIES, "general": {"positionEncodings": encodings}}
         answer = client.initialize([self.work()], capabilities)
         self.assertEqual(answer["capabilities"]["positionEncoding"], result)
@@ -195,7 +195,7 @@ class Encodings(LspCase):
 
     def test_old_modules_are_latin1_on_disk(self):
         self.write("old.mod", 'MODULE old\n  PROC helper()\n    TPWrite "\u00e4" + 1;\n  ENDPROC\nENDMODULE\n', "latin-1")
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         found = client.published(uri(os.path.join(self.work(), "old.mod")))
         self.assertEqual(found[0]["range"], span((2, 16), (2, 17)))
@@ -209,7 +209,7 @@ class Bounds(LspCase):
         self.assertEqual(client.published(document, 2), [])
 
     def test_edits_of_what_is_not_open(self):
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         client.change("file:///nowhere/x.modx", 2, "MODULE x\nENDMODULE\n")
         client.close("file:///nowhere/x.modx")
@@ -271,7 +271,7 @@ class Folders(LspCase):
         main = "MODULE m\n  PROC main()\n    helper;\n  ENDPROC\nENDMODULE\n"
         paths = self.write("a/m.modx", main), self.write("b/m.modx", main)
         self.write("a/h.modx", helper)
-        client = self.client()
+        client = self.connect()
         client.initialize([os.path.dirname(p) for p in paths])
         first, second = (client.open(p, main) for p in paths)
         self.assertEqual(client.published(first, 1), [])
@@ -279,7 +279,7 @@ class Folders(LspCase):
 
     def test_folders_come_and_leave(self):
         path = self.write("a/w.modx", WRONG)
-        client = self.client()
+        client = self.connect()
         client.initialize([])
         folder = {"uri": uri(os.path.dirname(path)), "name": "a"}
         client.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [folder], "removed": []}})
@@ -292,7 +292,7 @@ class Folders(LspCase):
         back = "MODULE b\n  PERS num shared;\n  PROC main()\n    shared := own;\n  ENDPROC\nENDMODULE\n"
         paths = self.write("RAPID/TASK1/PROGMOD/m.mod", main), self.write("RAPID/TASK2/PROGMOD/b.mod", back)
         self.write("SYSPAR/SYS.cfg", SYS_CFG)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         first, second = client.open(paths[0], main), client.open(paths[1], back)
         self.assertEqual([d for d in client.published(first, 1) if d["severity"] == 1], [])
@@ -317,19 +317,19 @@ class Folders(LspCase):
         self.assertEqual(len(client.next_published(document)), 1)
 
     def test_watchers_are_registered_if_the_client_can(self):
-        client = self.client()
+        client = self.connect()
         workspace = {**CAPABILITIES["workspace"], "didChangeWatchedFiles": {"dynamicRegistration": True}}
         client.initialize([self.work()], {**CAPABILITIES, "workspace": workspace})
         client.settle()
         self.assertEqual([m["params"]["registrations"][0]["method"] for m in client.asked], ["workspace/didChangeWatchedFiles"])
-        other = self.client()
+        other = self.connect()
         other.initialize([self.work()])
         other.settle()
         self.assertEqual(other.asked, [])
 
     def test_configuration_files(self):
         self.write("EIO.cfg", 'EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n      -Name "doGrip" -SignalType "XX"\n')
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         found = client.published(uri(os.path.join(self.work(), "EIO.cfg")))
         self.assertEqual([(d["code"][:4], d["range"]["start"]["line"]) for d in found], [("RAP6", 4)])
@@ -346,7 +346,7 @@ class Folders(LspCase):
     def test_program_files(self):
         text = '<?xml version="1.0" encoding="ISO-8859-1" ?>\n<Program>\n\t<Module>lost.mod</Module>\n</Program>\n'
         path = self.write("p.pgf", text)
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()])
         document = client.open(path, text, language="xml")
         found = client.published(document, 1)
@@ -361,7 +361,7 @@ class Settings(LspCase):
         return [d["severity"] for d in client.next_published(document)]
 
     def test_initialization_options(self):
-        client = self.client()
+        client = self.connect()
         client.initialize([self.work()], initializationOptions={"warnings": ["error=unused-variable"]})
         document = client.open(self.write("m.modx", self.TEXT), self.TEXT)
         self.assertEqual(self.severities(client, document), [1])
@@ -373,7 +373,7 @@ class Settings(LspCase):
         self.assertEqual(self.severities(client, document), [])
 
     def test_the_client_is_asked(self):
-        client = self.client()
+        client = self.connect()
         client.answers["workspace/configuration"] = lambda params: [
             {"warnings": ["no-lint"]} if item["section"] == "rapidc" else None for item in params["items"]]
         client.initialize([self.work()], {**CAPABILITIES, "workspace": {"configuration": True}})

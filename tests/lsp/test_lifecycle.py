@@ -15,7 +15,7 @@ class Lifecycle(LspCase):
         return caught.exception.code
 
     def test_initialize_names_the_server(self):
-        client = self.client()
+        client = self.connect()
         result = client.initialize()
         self.assertEqual(result["serverInfo"]["name"], "rapidc")
         self.assertRegex(result["serverInfo"]["version"], r"^\d+\.\d+")
@@ -24,7 +24,7 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_requests_before_initialize(self):
-        client = self.client()
+        client = self.connect()
         self.assertEqual(self.code(client, "textDocument/hover", {}), -32002)
         self.assertEqual(self.code(client, "shutdown"), -32002)
         client.notify("textDocument/didOpen", {"nonsense": 1})  # dropped
@@ -32,19 +32,19 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_second_initialize(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         self.assertEqual(self.code(client, "initialize", {"capabilities": {}}), -32600)
 
     def test_wrong_initialize_can_be_repeated(self):
-        client = self.client()
+        client = self.connect()
         self.assertEqual(self.code(client, "initialize"), -32602)
         self.assertEqual(self.code(client, "initialize", {"capabilities": 5}), -32602)
         client.initialize()
         self.assertEqual(client.stop(), 0)
 
     def test_requests_after_shutdown(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         client.request("shutdown")
         self.assertEqual(self.code(client, "textDocument/hover", {}), -32600)
@@ -53,13 +53,13 @@ class Lifecycle(LspCase):
         self.assertEqual(client.wait(), 0)
 
     def test_exit_without_shutdown(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         client.notify("exit")
         self.assertEqual(client.wait(), 1)
 
     def test_unknown_requests_and_notifications(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         self.assertEqual(self.code(client, "textDocument/fly", {}), -32601)
         self.assertEqual(self.code(client, "$/fly", {}), -32601)
@@ -68,7 +68,7 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_wrong_parameters(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         for params in (None, {}, {"textDocument": 5}, {"textDocument": {"uri": 7}}, [1], {"textDocument": {"uri": "file:///x.modx"}}):
             self.assertEqual(self.code(client, "textDocument/formatting", params), -32602, params)
@@ -77,7 +77,7 @@ class Lifecycle(LspCase):
                                        {"textDocument": {"uri": "file:///x.modx"}, "position": position, "ch": "\n"}), -32602)
 
     def test_messages_that_are_no_requests(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         for body in ("[]", "5", "null", '"text"', "{}", '{"id": 7}', '{"jsonrpc": "2.0", "id": 7, "method": 5}',
                      '{"jsonrpc": "2.0", "id": {"a": 1}, "method": "shutdown"}', '{"id": 7, "method": "shutdown"}',
@@ -89,7 +89,7 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_no_json(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         for body in ("{", "", "nonsense", b"\xff\xfe{}", '{"jsonrpc": "2.0", "id": 1', "[" * 100000):
             client.send_body(body)
@@ -98,7 +98,7 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_headers_in_any_form(self):
-        client = self.client()
+        client = self.connect()
         body = b'{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}'
         client.send_bytes(b"Content-Type: application/vscode-jsonrpc; charset=utf-8\r\ncontent-length:%d\r\n\r\n" % len(body))
         for i in range(len(body)):  # byte by byte
@@ -108,19 +108,19 @@ class Lifecycle(LspCase):
         self.assertEqual(client.stop(), 0)
 
     def test_text_ids(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         client.send({"id": "abc", "method": "textDocument/fly"})
         self.assertEqual(client.response("abc")["error"]["code"], -32601)
 
     def test_end_of_input(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         client.process.stdin.close()
         self.assertEqual(client.process.wait(timeout=30), 1)
 
     def test_end_of_input_in_the_middle_of_a_message(self):
-        client = self.client()
+        client = self.connect()
         client.send_bytes(b"Content-Length: 1000\r\n\r\n{")
         client.process.stdin.close()
         self.assertEqual(client.process.wait(timeout=30), 1)
@@ -135,14 +135,14 @@ class Lifecycle(LspCase):
 
     def test_a_client_that_dies_while_others_hold_the_pipe(self):
         with subprocess.Popen(["sleep", "60"]) as parent:
-            client = self.client()
+            client = self.connect()
             client.request("initialize", {"processId": parent.pid, "capabilities": {}})
             os.kill(parent.pid, signal.SIGKILL)
             parent.wait()
             self.assertEqual(client.process.wait(timeout=30), 1)
 
     def test_cancelled_requests(self):
-        client = self.client()
+        client = self.connect()
         client.initialize()
         text = "MODULE m\n" + "".join(f"  VAR num n{i};\n" for i in range(3000)) + "ENDMODULE\n"
         document = client.open(self.write("m.modx", text), text)

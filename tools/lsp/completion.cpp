@@ -1,7 +1,7 @@
 // textDocument/completion and completionItem/resolve.
 
-#include "frontend/query/completion.h"
 #include "config/json_text.h"
+#include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
 
 #include <fmt/format.h>
@@ -43,8 +43,8 @@ struct Style {
     bool adjusts = false; ///< the client can be told to indent the lines of a text
 };
 
-Json toJson(const State& state, const Target& target, const Json& range, const CompletionItem& item,
-            const Style& style) {
+Json itemJson(const State& state, const Target& target, const Json& range, const CompletionItem& item,
+              const Style& style) {
     const bool snippet = style.snippets && !item.snippet.empty();
     Json out{{"label", item.label},
              {"kind", kindOf(item.kind)},
@@ -62,13 +62,7 @@ Json toJson(const State& state, const Target& target, const Json& range, const C
 
 } // namespace
 
-Json completion(State& state, const Json& params) {
-    const Target target = state.targetAt(params);
-    if (!target.isModule()) return configurationCompletion(state, target);
-    query::CompletionOptions options;
-    options.limit = 1000; // more than anyone reads; the next letter asks again
-    const query::CompletionList list =
-        query::completionAt(*target.snapshot, *target.view, target.offset, options);
+Json toJson(State& state, const Target& target, const query::CompletionList& list) {
     const Json range = lsp::toJson(target.positions->range(list.replace));
     Style style;
     style.snippets = state.can("textDocument.completion.completionItem.snippetSupport");
@@ -76,8 +70,16 @@ Json completion(State& state, const Json& params) {
         state.capability("textDocument.completion.completionItem.insertTextModeSupport.valueSet"), 2);
     Json items = Json::array();
     for (const CompletionItem& item : list.items)
-        items.push_back(toJson(state, target, range, item, style));
+        items.push_back(itemJson(state, target, range, item, style));
     return {{"isIncomplete", list.incomplete}, {"items", std::move(items)}};
+}
+
+Json completion(State& state, const Json& params) {
+    const Target target = state.targetAt(params);
+    if (!target.isModule()) return configurationCompletion(state, target);
+    query::CompletionOptions options;
+    options.limit = 1000; // more than anyone reads; the next letter asks again
+    return toJson(state, target, query::completionAt(*target.snapshot, *target.view, target.offset, options));
 }
 
 Json resolveCompletion(State& state, const Json& params) {

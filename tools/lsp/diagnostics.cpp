@@ -127,6 +127,25 @@ void Publisher::send(State& state, const std::string& path, const Diagnostics& d
     state.notify("textDocument/publishDiagnostics", std::move(params));
 }
 
+bool Publisher::publishQuickly(State& state) {
+    bool nothingSlow = true;
+    for (const auto& [uri, document] : state.documents.all()) {
+        rapid::workspace::Program* owner = state.workspace.programOf(document.path);
+        if (!owner || !owner->isSlowToJudge()) continue;
+        nothingSlow = false;
+        const std::vector<diag::Diagnostic> found = owner->quickDiagnostics(document.path);
+        Diagnostics diagnostics;
+        for (const diag::Diagnostic& d : found)
+            if (d.severity != diag::Severity::Note) diagnostics.push_back(&d);
+        const Sent fresh{hashOf(diagnostics), document.version};
+        Sent& before = sent_[document.path];
+        if (before.hash == fresh.hash && before.version == fresh.version) continue;
+        send(state, document.path, diagnostics);
+        before = fresh;
+    }
+    return nothingSlow;
+}
+
 // Paths of open documents come first: they are what the user looks at.
 void Publisher::publish(State& state) {
     static const Diagnostics kNone;
@@ -163,7 +182,7 @@ void Publisher::publish(State& state) {
 /// Problems with options, folders without modules, unknown robots: once, into the log.
 void Publisher::logOthers(State& state) {
     std::string all;
-    for (const rapid::workspace::Program* program : state.workspace.programs()) {
+    for (rapid::workspace::Program* program : state.workspace.programs()) {
         for (const std::string& problem : program->loaded().usageErrors)
             all += problem + "\n";
         for (const diag::Diagnostic& d : program->diagnostics())

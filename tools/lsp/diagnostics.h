@@ -24,6 +24,8 @@ class Publisher {
   public:
     /// Sends what has changed since the last time, and all of what is open in another version.
     void publish(State& state);
+    /// Open documents of large programs, without a look at all of the program. True: there are none, and publish() takes no time.
+    bool publishQuickly(State& state);
     /// The document is sent next time whether it has changed or not.
     void forget(const std::string& path) { sent_[path].hash = 0; }
 

@@ -45,6 +45,20 @@ format::FormatSettings settingsFor(const State& state, const std::string& path) 
     return settings;
 }
 
+/// Edits that touch become one: clients do not agree on the order of an insertion and a change at the same place.
+std::vector<TextEdit> joined(const std::vector<TextEdit>& edits) {
+    std::vector<TextEdit> out;
+    for (const TextEdit& edit : edits) {
+        if (out.empty() || out.back().range.end != edit.range.begin) {
+            out.push_back(edit);
+            continue;
+        }
+        out.back().range.end = edit.range.end;
+        out.back().replacement += edit.replacement;
+    }
+    return out;
+}
+
 /// Declarations with mistakes stay as they are.
 std::vector<TextEdit> editsFor(State& state, const Target& target, uint32_t firstLine, uint32_t lastLine) {
     if (!rapid::project::isModule(target.path))
@@ -59,7 +73,7 @@ std::vector<TextEdit> editsFor(State& state, const Target& target, uint32_t firs
     request.lastLine = lastLine;
     format::FormatResult result = format::format(*tree, format::errorRanges(sink), request);
     if (!result.ok()) throw RequestError{error::kRequestFailed, result.problem};
-    return std::move(result.edits);
+    return joined(result.edits);
 }
 
 } // namespace

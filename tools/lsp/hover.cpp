@@ -1,8 +1,8 @@
 // textDocument/hover and textDocument/signatureHelp.
 
-#include "frontend/query/hover.h"
 #include "config/json_text.h"
 #include "frontend/query/signature_help.h"
+#include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
 
 namespace lsp {
@@ -32,15 +32,18 @@ uint32_t unitsOf(const std::string& label, uint32_t bytes) {
 
 } // namespace
 
+Json toJson(State& state, const Target& target, const query::Hover& hover) {
+    const bool markdown = showsMarkdown(state, "textDocument.hover.contentFormat");
+    const Json contents{{"kind", markdown ? "markdown" : "plaintext"},
+                        {"value", markdown ? hover.markdown() : plainText(hover)}};
+    return {{"contents", contents}, {"range", toJson(target.positions->range(hover.range))}};
+}
+
 Json hover(State& state, const Json& params) {
     const Target target = state.targetAt(params);
     if (!target.isModule()) return configurationHover(state, target);
     const auto found = query::hoverAt(*target.snapshot, *target.view, target.offset);
-    if (!found) return nullptr;
-    const bool markdown = showsMarkdown(state, "textDocument.hover.contentFormat");
-    const Json contents{{"kind", markdown ? "markdown" : "plaintext"},
-                        {"value", markdown ? found->markdown() : plainText(*found)}};
-    return {{"contents", contents}, {"range", toJson(target.positions->range(found->range))}};
+    return found ? toJson(state, target, *found) : Json(nullptr);
 }
 
 Json signatureHelp(State& state, const Json& params) {

@@ -3,6 +3,7 @@
 #include "frontend/query/navigation.h"
 #include "config/json_text.h"
 #include "frontend/query/renaming.h"
+#include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
 
 #include <algorithm>
@@ -12,11 +13,9 @@ namespace lsp {
 
 namespace query = rapid::query;
 
-namespace {
-
-Json locations(State& state, const std::vector<query::Location>& found) {
+Json toJson(State& state, const std::vector<query::Location>& places) {
     Json out = Json::array();
-    for (const query::Location& location : found) {
+    for (const query::Location& location : places) {
         Json place = state.location(location);
         if (!place.is_null() && std::find(out.begin(), out.end(), place) == out.end())
             out.push_back(std::move(place));
@@ -24,12 +23,14 @@ Json locations(State& state, const std::vector<query::Location>& found) {
     return out;
 }
 
+namespace {
+
 using Find = std::vector<query::Location> (*)(const query::Snapshot&, const query::FileView&, uint32_t);
 
 Json find(State& state, const Json& params, Find find) {
     const Target target = state.targetAt(params);
     if (!target.isModule()) return Json::array();
-    return locations(state, find(*target.snapshot, *target.view, target.offset));
+    return toJson(state, find(*target.snapshot, *target.view, target.offset));
 }
 
 /// DocumentHighlightKind
@@ -47,7 +48,7 @@ int kindOf(query::Access access) {
 Json definition(State& state, const Json& params) {
     const Target target = state.targetAt(params);
     if (!target.isModule()) return configurationDefinition(state, target);
-    return locations(state, query::definitionAt(*target.snapshot, *target.view, target.offset));
+    return toJson(state, query::definitionAt(*target.snapshot, *target.view, target.offset));
 }
 
 Json typeDefinition(State& state, const Json& params) {
@@ -61,13 +62,13 @@ Json implementation(State& state, const Json& params) {
 Json references(State& state, const Json& params) {
     const Target target = state.targetAt(params);
     const bool declaration = boolField(objectField(params, "context"), "includeDeclaration", false);
-    if (!target.isModule()) return configurationReferences(state, target, declaration);
+    if (!target.isModule()) return configurationReferences(state, target);
     const query::Meaning meaning = query::meaningAt(*target.snapshot, *target.view, target.offset);
     std::vector<query::Location> found;
     if (meaning.found())
         for (const query::Use& use : query::usesOf(*target.snapshot, meaning, declaration))
             found.push_back(use.place);
-    return locations(state, found);
+    return toJson(state, found);
 }
 
 Json documentHighlight(State& state, const Json& params) {

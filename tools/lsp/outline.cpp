@@ -1,9 +1,10 @@
 // What a document consists of: symbols, folding, selection; symbols of the workspace.
 
 #include "config/json_text.h"
+#include "frontend/project/files.h"
+#include "frontend/query/config_queries.h"
 #include "frontend/query/structure.h"
 #include "frontend/query/symbols.h"
-#include "frontend/syntax/parser.h"
 #include "tools/lsp/requests.h"
 
 #include <set>
@@ -64,9 +65,13 @@ void flatten(State& state, const PositionMap& positions, const OutlineSymbol& sy
 Json documentSymbol(State& state, const Json& params) {
     const Target target = state.target(params);
     Json out = Json::array();
-    if (!target.tree) return out;
+    std::vector<OutlineSymbol> symbols;
+    if (target.tree)
+        symbols = query::outlineOf(*target.tree);
+    else if (rapid::project::extensionOf(target.path) == ".cfg")
+        symbols = query::configOutline(target.positions->file().text());
     const bool trees = state.can("textDocument.documentSymbol.hierarchicalDocumentSymbolSupport");
-    for (const OutlineSymbol& symbol : query::outlineOf(*target.tree)) {
+    for (const OutlineSymbol& symbol : symbols) {
         if (trees)
             out.push_back(tree(*target.positions, symbol));
         else

@@ -66,7 +66,7 @@ Json outgoingCalls(State& state, const Json& params);
 Json configurationCompletion(State& state, const Target& target);
 Json configurationHover(State& state, const Target& target);
 Json configurationDefinition(State& state, const Target& target);
-Json configurationReferences(State& state, const Target& target, bool withDeclaration);
+Json configurationReferences(State& state, const Target& target);
 
 // ---- file_operations.cpp
 Json willRenameFiles(State& state, const Json& params);

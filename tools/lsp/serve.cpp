@@ -149,21 +149,25 @@ class Writer {
     bool broken_ = false;
 };
 
-/// Messages in their order; when none is waiting, or when one has been waited for long enough, diagnostics.
+/// Messages in their order; when none is waiting, or when one has been waited for long enough, diagnostics. What takes long
+/// waits for a pause.
 void work(Server& server, Inbox& inbox, const Writer& writer, std::atomic<int64_t>& client) {
-    constexpr std::chrono::milliseconds kLongest(400);
-    Clock::time_point upToDate = Clock::now();
+    using std::chrono::milliseconds;
+    constexpr milliseconds kLongest(400), kPause(300), kIdle(100);
+    Clock::time_point upToDate = Clock::now(), lastMessage = upToDate;
+    const auto waiting = [&inbox] { return inbox.hasMessages(); };
     bool ended = false;
     while (!ended && !server.hasEnded() && !writer.isBroken()) {
-        if (server.isBehind() && (!inbox.hasMessages() || Clock::now() - upToDate > kLongest)) {
-            const bool hurry = inbox.hasMessages();
-            server.catchUp(hurry ? std::function<bool()>() : [&inbox] { return inbox.hasMessages(); });
+        if (server.isBehind() && (!waiting() || Clock::now() - upToDate > kLongest)) {
+            const bool quiet = Clock::now() - lastMessage >= kPause;
+            server.catchUp(quiet, waiting() ? std::function<bool()>() : waiting);
             upToDate = Clock::now();
         }
         Message message;
-        const auto wait = server.isBehind() ? std::chrono::milliseconds(0) : std::chrono::milliseconds(100);
-        if (!inbox.take(message, Clock::now() + wait, ended)) continue;
+        const auto deadline = server.isBehind() ? lastMessage + kPause : Clock::now() + kIdle;
+        if (!inbox.take(message, deadline, ended)) continue;
         if (!server.isBehind()) upToDate = Clock::now();
+        lastMessage = Clock::now();
         if (message)
             server.receive(*message);
         else

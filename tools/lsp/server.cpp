@@ -133,11 +133,14 @@ bool Server::isBehind() const {
            (state_.settingsKnown || std::chrono::steady_clock::now() >= state_.settingsDeadline);
 }
 
-void Server::catchUp(const std::function<bool()>& interrupted) {
+void Server::catchUp(bool whole, const std::function<bool()>& interrupted) {
     if (!isBehind()) return;
     state_.workspace.setInterrupted(interrupted);
     try {
-        if (state_.workspace.bringUpToDate()) publisher_.publish(state_);
+        if (state_.workspace.bringUpToDate()) {
+            const bool all = publisher_.publishQuickly(state_) || whole;
+            if (all && (!interrupted || !interrupted())) publisher_.publish(state_);
+        }
     } catch (const std::exception& problem) {
         state_.dirty = false;
         state_.log(1, fmt::format("diagnostics failed: {}", problem.what()));

@@ -24,8 +24,9 @@ class Server {
     /// The body of a frame that is no JSON.
     void receiveGarbage();
     /// Publishes diagnostics when something changed. `interrupted` is asked between programs: it ends this early, with nothing
-    /// published, when messages are waiting.
-    void catchUp(const std::function<bool()>& interrupted = nullptr);
+    /// published, when messages are waiting. `whole`: also what takes long in large programs (the judgement about all of a
+    /// program); without it that may be left for the next time.
+    void catchUp(bool whole, const std::function<bool()>& interrupted = nullptr);
     /// Whether catchUp has something to do.
     bool isBehind() const;
 
