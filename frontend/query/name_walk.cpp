@@ -33,6 +33,9 @@ class NameWalker {
             add(data);
         for (const RoutineSymbol* routine : module.routines)
             add(routine);
+        if (file.facts)
+            for (size_t i = 0; i < file.facts->labels.size(); ++i)
+                add(&file.facts->labels[i]);
     }
 
     void walk(const Decl& decl) {
@@ -112,12 +115,6 @@ class NameWalker {
             componentOf(own, part->name, Access::Declaration);
         }
     }
-    void label(const Node& n) {
-        if (!file_.facts) return;
-        for (size_t i = 0; i < file_.facts->labels.size(); ++i)
-            if (file_.facts->labels[i].decl == &n)
-                return add(as<LabelStmt>(n).name, &file_.facts->labels[i], Access::Declaration);
-    }
     const Symbol* kept(const Node& n) const {
         if (!file_.facts) return nullptr;
         const auto found = file_.facts->references.find(&n);
@@ -136,7 +133,7 @@ class NameWalker {
         case NodeKind::Call: call(n, as<CallExpr>(n).name); break;
         case NodeKind::CallStmt: call(n, as<CallStmt>(n).name); break;
         case NodeKind::Goto: add(as<GotoStmt>(n).label, kept(n)); return;
-        case NodeKind::Label: return label(n);
+        case NodeKind::Label: return declaration(n, as<LabelStmt>(n).name);
         case NodeKind::Break:
         case NodeKind::Continue:
             if (boundCallOf(file_, n)) call(n, n.first);
