@@ -14,8 +14,10 @@
 #include <llvm/Transforms/Scalar/LoopUnrollPass.h>
 
 #include "codegen/budget_loops.h"
+#include "codegen/cold_constants.h"
 #include "codegen/constant_calls.h"
 #include "codegen/constant_divisions.h"
+#include "codegen/finite_sums.h"
 #include "codegen/huge_routines.h"
 #include "codegen/integral_numbers.h"
 #include "codegen/integral_values.h"
@@ -136,6 +138,12 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         passes.addPass(ConstantDivisions());
         passes.addPass(BudgetLoops());
         passes.addPass(UncheckedRounds());
+    });
+    builder.registerOptimizerLastEPCallback([](llvm::ModulePassManager& passes, llvm::OptimizationLevel) {
+        llvm::FunctionPassManager last;
+        last.addPass(FiniteSums());
+        last.addPass(ColdConstants());
+        passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(last)));
     });
     runO2(module, builder);
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <vector>
 
+#include "codegen/finite_sums.h"
 #include "codegen/integral_numbers.h"
 #include "codegen/whole_numbers.h"
 
@@ -118,6 +119,11 @@ struct Division {
     }
 };
 
+Value* isFinite(llvm::IRBuilder<>& b, Value* number) {
+    return b.CreateFCmpOLT(b.CreateUnaryIntrinsic(llvm::Intrinsic::fabs, number),
+                           llvm::ConstantFP::getInfinity(number->getType()));
+}
+
 void replace(const Division& division) {
     llvm::Instruction& ratio = *division.ratio;
     Value *number = ratio.getOperand(0), *divisor = ratio.getOperand(1);
@@ -144,14 +150,26 @@ void replace(const Division& division) {
     Value* slowRatio = b.CreateFDiv(number, divisor);
     Value* slowQuotient = whole(slowRatio);
     Value* slowRemainder = division.remainder ? remainderOf(slowQuotient) : nullptr;
-    b.SetInsertPoint(&*ratio.getParent()->begin());
-    const auto join = [&](llvm::Instruction* old, Value* fast, Value* exact) {
-        if (!old) return;
-        llvm::PHINode* phi = b.CreatePHI(type, 2);
+    llvm::BasicBlock* after = ratio.getParent();
+    const auto merge = [&](llvm::Type* of, Value* fast, Value* exact) {
+        b.SetInsertPoint(after, after->begin());
+        llvm::PHINode* phi = b.CreatePHI(of, 2);
         phi->addIncoming(fast, before);
         phi->addIncoming(exact, divided);
-        old->replaceAllUsesWith(phi);
+        return phi;
+    };
+    const auto join = [&](llvm::Instruction* old, Value* fast, Value* exact) {
+        if (!old) return;
+        llvm::PHINode* joined = merge(type, fast, exact);
+        old->replaceAllUsesWith(joined);
         old->eraseFromParent();
+        // Without the division the result is finite. Checks that have no user any more are left to LLVM.
+        for (const FiniteCheck& check : FiniteCheck::of(*joined)) {
+            llvm::IRBuilder<> inSlow(slow);
+            Value* finite = isFinite(inSlow, exact);
+            if (!check.trueWhenFinite) finite = inSlow.CreateNot(finite);
+            check.inst->replaceAllUsesWith(merge(b.getInt1Ty(), b.getInt1(check.trueWhenFinite), finite));
+        }
     };
     join(division.remainder, remainder, slowRemainder);
     join(division.quotient, quotient, slowQuotient);

@@ -2,6 +2,7 @@
 
 #include <llvm/IR/Intrinsics.h>
 
+#include "codegen/finite_sums.h"
 #include "codegen/routine_emitter.h"
 #include "ir/core/op_info.h"
 
@@ -22,7 +23,11 @@ llvm::Value* RoutineEmitter::constant(const ir::Inst& inst) {
 llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     Value* a = operand(inst, 0);
     switch (ir::as<ir::FloatOp>(inst.op)) {
-    case ir::FloatOp::FAdd: return b_.CreateFAdd(a, operand(inst, 1));
+    case ir::FloatOp::FAdd: {
+        Value* sum = b_.CreateFAdd(a, operand(inst, 1));
+        if (inst.extra == 1) markForChecks(sum);
+        return sum;
+    }
     case ir::FloatOp::FSub: return b_.CreateFSub(a, operand(inst, 1));
     case ir::FloatOp::FMul: return b_.CreateFMul(a, operand(inst, 1));
     case ir::FloatOp::FDiv: return b_.CreateFDiv(a, operand(inst, 1));
@@ -92,6 +97,10 @@ llvm::Value* RoutineEmitter::divide(const ir::Inst& inst) {
 llvm::Value* RoutineEmitter::comparison(const ir::Inst& inst) {
     if (inst.op == Op::IsFinite) return isFinite(operand(inst, 0));
     Value *a = operand(inst, 0), *b = operand(inst, 1);
+    llvm::IRBuilder<>::FastMathFlagGuard guard(b_);
+    llvm::FastMathFlags flags;
+    flags.setNoNaNs(module_.overflowError != 0); // the operands have been checked
+    b_.setFastMathFlags(flags);
     switch (ir::as<ir::CompareOp>(inst.op)) {
     case ir::CompareOp::FEq: return b_.CreateFCmpOEQ(a, b);
     case ir::CompareOp::FNe: return b_.CreateFCmpUNE(a, b);

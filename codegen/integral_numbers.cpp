@@ -88,6 +88,12 @@ llvm::PreservedAnalyses WholeChecks::run(llvm::Function& function, llvm::Functio
         if ((!equal && compare->getPredicate() != llvm::FCmpInst::FCMP_UNE) || !numbers.contains(number))
             continue;
         llvm::IRBuilder<> b(compare);
+        if (compare->hasNoNaNs()) {
+            compare->replaceAllUsesWith(b.getInt1(equal));
+            compare->eraseFromParent();
+            changed = true;
+            continue;
+        }
         compare->replaceAllUsesWith(b.CreateFCmp(equal ? llvm::FCmpInst::FCMP_ORD : llvm::FCmpInst::FCMP_UNO,
                                                  number, llvm::ConstantFP::getZero(number->getType())));
         compare->eraseFromParent();

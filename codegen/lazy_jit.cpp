@@ -13,7 +13,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <fstream>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "codegen/compile.h"
@@ -37,6 +39,14 @@ using ReentryAbi = llvm::orc::OrcX86_64_SysV;
 /// Calls after which quick code is replaced.
 constexpr int32_t kHotCalls = 200;
 
+/// A debugger has started this process, or is attached to it.
+bool isDebugged() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.rfind("TracerPid:", 0) == 0) return line.find_first_of("123456789") != std::string::npos;
+    return false;
+}
+
 class LazyProgram : public JitProgram {
   public:
     LazyProgram(const ir::Module& module, const CodegenOptions& options)
@@ -44,7 +54,8 @@ class LazyProgram : public JitProgram {
           counts_(module.routines.size(), kHotCalls), prepared_(module.routines.size(), !options.prepare),
           settingTaskFrame_(std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}))),
           quality_(module.routines.size(), Quality::None) {
-        options_.debugInfo = false; // it would take longer than the code
+        // It takes longer than the code.
+        options_.debugInfo = options_.debugInfo && isDebugged();
     }
 
     ~LazyProgram() override {
@@ -60,7 +71,7 @@ class LazyProgram : public JitProgram {
 
     bool load(const std::vector<NativeSymbol>& symbols, std::string& error) {
         auto machine = makeTargetMachine(quick(), error);
-        if (!machine || !session_.open(machine->createDataLayout(), false, error)) return false;
+        if (!machine || !session_.open(machine->createDataLayout(), options_.debugInfo, error)) return false;
         std::vector<NativeSymbol> known = symbols;
         known.push_back({kRoutineSlots, slots_.data()});
         known.push_back({kCallCounts, counts_.data()});

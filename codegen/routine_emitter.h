@@ -90,14 +90,16 @@ class RoutineEmitter {
     void oneOfRounds(const JoinedRounds& joined, bool isLast, BasicBlock* back, Value* (&sums)[2]);
 
     // wide_loop.cpp
+    using WideValues = std::unordered_map<ir::ValueId, Value*>; ///< of the rounds in one vector
+    using WideParts = std::vector<WideValues>;                  ///< of all rounds that are done at once
     void wideLoop(const WideLoop& wide);
     Value* misplacedElements(const WideLoop& wide);
     void wideRounds(const WideLoop& wide, BasicBlock* head, uint32_t alignment);
-    Value* wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,
-                       const std::unordered_map<ir::ValueId, Value*>& values);
-    Value* wideValue(const WideLoop& wide, ir::ValueId id, Value* first,
-                     const std::unordered_map<ir::ValueId, Value*>& values);
-    Value* allFinite(const WideLoop& wide, const std::unordered_map<ir::ValueId, Value*>& values);
+    void widePart(const WideLoop& wide, unsigned k, uint32_t alignment, WideParts& parts);
+    Value* wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i, const WideValues& values);
+    Value* wideValue(const WideLoop& wide, ir::ValueId id, Value* first, const WideValues& values);
+    void addRegisters(Value* vector, std::vector<Value*>& out);
+    Value* allFinite(const WideLoop& wide, const WideParts& parts);
 
     // emit_memory.cpp
     Value* leaf(const ir::Inst& inst);

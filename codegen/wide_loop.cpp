@@ -61,13 +61,60 @@ bool WideLoop::readBody() {
         if (b == header_) break;
         if (!loop_.contains[b] || blocks > loop_.blocks.size()) return false;
     }
-    if (stores_.empty()) return false;
-    unsigned bytes = 4;
+    return blocks == loop_.blocks.size() && !stores_.empty() && stores_.size() <= 4 && chooseWidth();
+}
+
+/// As many rounds as registers hold the results of; a number that divides all rounds, if these are known, so that none is left.
+bool WideLoop::chooseWidth() {
+    unsigned largest = 4, smallest = 8;
+    const auto note = [&](ir::TypeId type) {
+        if (!ir::isFloat(type)) return;
+        largest = std::max(largest, module_.size(type));
+        smallest = std::min(smallest, module_.size(type));
+    };
     for (const ValueId id : checks_)
-        bytes = std::max(bytes, module_.size(ir::valueType(routine_.insts[routine_.insts[id].operands[0]])));
-    width_ = kBytesAtOnce / bytes / static_cast<unsigned>(stores_.size());
-    return blocks == loop_.blocks.size() && stores_.size() <= 4 &&
-           width_ * stores_.size() * bytes == kBytesAtOnce;
+        note(ir::valueType(routine_.insts[routine_.insts[id].operands[0]]));
+    for (const ValueId id : insts_)
+        note(ir::valueType(routine_.insts[id]));
+    part_ = kRegister / smallest;
+    const unsigned usual = kBytesAtOnce / largest / static_cast<unsigned>(stores_.size()) / part_ * part_;
+    width_ = usual;
+    if (const auto rounds = knownRounds())
+        for (unsigned width = (usual + usual / 4) / part_ * part_; width >= usual / 2 && width > 0;
+             width -= part_)
+            if (*rounds % width == 0) {
+                width_ = width;
+                break;
+            }
+    return width_ >= part_;
+}
+
+std::optional<int64_t> WideLoop::knownRounds() const {
+    const Inst& bound = routine_.insts[counted_.bound];
+    std::optional<int64_t> last;
+    if (bound.op == Op::Const) last = bound.integer;
+    if (bound.op == Op::Load) last = initialValue(bound.operands[0]);
+    for (const ValueId id : routine_.blocks[header_].insts) {
+        const Inst& load = routine_.insts[id];
+        if (load.op != Op::Load || loadedLocal(load) != counted_.counter) continue;
+        const auto first = initialValue(load.operands[0]);
+        if (!first || !last) return std::nullopt;
+        return std::max<int64_t>(0, *last - *first + (counted_.comparison == Op::ILe ? 1 : 0));
+    }
+    return std::nullopt;
+}
+
+/// The constant that the block in front of the loop stores to a local.
+std::optional<int64_t> WideLoop::initialValue(ValueId address) const {
+    const uint32_t local = routine_.insts[address].index;
+    std::optional<int64_t> result;
+    for (const ValueId id : routine_.blocks[entry_].insts) {
+        const Inst& store = routine_.insts[id];
+        if (store.op != Op::Store || loadedLocal(store) != local) continue;
+        const Inst& stored = routine_.insts[store.operands[0]];
+        result = stored.op == Op::Const ? std::optional(stored.integer) : std::nullopt;
+    }
+    return result;
 }
 
 const WideLoop::Lane* WideLoop::lane(ValueId id) const {
@@ -249,40 +296,60 @@ void RoutineEmitter::wideRounds(const WideLoop& wide, BasicBlock* head, uint32_t
     Value* first = load(ir::kI32, counter);
     b_.CreateCondBr(hasRounds(wide.counted_, wide.width_), body, rest);
     b_.SetInsertPoint(body);
-    std::unordered_map<ValueId, Value*> values;
-    for (const ValueId id : wide.insts_)
-        if (wide.lane(id)) values[id] = wideValue(wide, id, first, values);
-    for (const ValueId id : wide.loads_)
-        llvm::cast<llvm::LoadInst>(values.at(id))
-            ->setAlignment(llvm::Align(std::max(alignment, module_.align(routine_.insts[id].type))));
-    b_.CreateCondBr(allFinite(wide, values), storing, rest, m_.unlikely());
+    WideParts parts(wide.width_ / wide.part_);
+    for (unsigned k = 0; k < parts.size(); ++k)
+        widePart(wide, k, alignment, parts);
+    b_.CreateCondBr(allFinite(wide, parts), storing, rest, m_.unlikely());
     b_.SetInsertPoint(storing);
-    for (const ValueId id : wide.stores_) {
-        const Inst& inst = routine_.insts[id];
-        auto* write = b_.CreateAlignedStore(wideOperand(wide, inst, 0, values), values.at(inst.operands[1]),
-                                            llvm::Align(std::max(alignment, module_.align(inst.type))));
-        write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
-    }
+    for (const WideValues& values : parts)
+        for (const ValueId id : wide.stores_) {
+            const Inst& inst = routine_.insts[id];
+            auto* write =
+                b_.CreateAlignedStore(wideOperand(wide, inst, 0, values), values.at(inst.operands[1]),
+                                      llvm::Align(std::max(alignment, module_.align(inst.type))));
+            write->setMetadata(llvm::LLVMContext::MD_tbaa, m_.tags().data[inst.type]);
+        }
     store(ir::kI32, b_.CreateAdd(first, b_.getInt32(wide.width_)), counter);
     b_.CreateBr(head);
 }
 
+/// The rounds of vector `k`.
+void RoutineEmitter::widePart(const WideLoop& wide, unsigned k, uint32_t alignment, WideParts& parts) {
+    WideValues& values = parts[k];
+    const uint32_t before = k * wide.part_;
+    Value* first = load(ir::kI32, locals_[wide.counted_.counter]);
+    if (k > 0) first = b_.CreateAdd(first, b_.getInt32(before));
+    for (const ValueId id : wide.insts_) {
+        const WideLoop::Lane* lane = wide.lane(id);
+        if (!lane) continue;
+        if (k > 0 && lane->kind == WideLoop::Kind::Address) {
+            llvm::Type* type = m_.memoryType(routine_.insts[id].type);
+            values[id] = b_.CreateConstInBoundsGEP1_32(type, parts[0].at(id), before);
+        } else {
+            values[id] = wideValue(wide, id, first, values);
+        }
+    }
+    for (const ValueId id : wide.loads_)
+        llvm::cast<llvm::LoadInst>(values.at(id))
+            ->setAlignment(llvm::Align(std::max(alignment, module_.align(routine_.insts[id].type))));
+}
+
 llvm::Value* RoutineEmitter::wideOperand(const WideLoop& wide, const ir::Inst& inst, size_t i,
-                                         const std::unordered_map<ir::ValueId, Value*>& values) {
+                                         const WideValues& values) {
     const ValueId id = inst.operands[i];
     const auto found = values.find(id);
     if (found != values.end() && found->second->getType()->isVectorTy()) return found->second;
-    return b_.CreateVectorSplat(wide.width_, found != values.end() ? found->second : value(id));
+    return b_.CreateVectorSplat(wide.part_, found != values.end() ? found->second : value(id));
 }
 
 llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Value* first,
-                                       const std::unordered_map<ir::ValueId, Value*>& values) {
+                                       const WideValues& values) {
     const Inst& inst = routine_.insts[id];
     const auto scalar = [&](size_t i) {
         const auto found = values.find(inst.operands[i]);
         return found != values.end() ? found->second : value(inst.operands[i]);
     };
-    const auto wideType = [&](llvm::Type* type) { return llvm::FixedVectorType::get(type, wide.width_); };
+    const auto wideType = [&](llvm::Type* type) { return llvm::FixedVectorType::get(type, wide.part_); };
     switch (wide.lane(id)->kind) {
     case WideLoop::Kind::Uniform: instruction(id); return value(id);
     case WideLoop::Kind::Index: // in the first of the rounds
@@ -301,10 +368,10 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
     }
     if (inst.op == Op::SIntToFloat) {
         std::vector<llvm::Constant*> rounds;
-        for (unsigned i = 0; i < wide.width_; ++i)
+        for (unsigned i = 0; i < wide.part_; ++i)
             rounds.push_back(b_.getInt32(i));
         Value* numbers =
-            b_.CreateAdd(b_.CreateVectorSplat(wide.width_, scalar(0)), llvm::ConstantVector::get(rounds));
+            b_.CreateAdd(b_.CreateVectorSplat(wide.part_, scalar(0)), llvm::ConstantVector::get(rounds));
         return b_.CreateSIToFP(numbers, wideType(m_.valueType(inst.type)));
     }
     const auto operand = [&](size_t i) { return wideOperand(wide, inst, i, values); };
@@ -321,29 +388,44 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
     return nullptr;
 }
 
+/// `vector` in pieces that fill a register.
+void RoutineEmitter::addRegisters(Value* vector, std::vector<Value*>& out) {
+    auto* type = llvm::cast<llvm::FixedVectorType>(vector->getType());
+    const unsigned half = type->getNumElements() / 2;
+    if (type->getPrimitiveSizeInBits() <= kRegister * 8) {
+        out.push_back(vector);
+        return;
+    }
+    std::vector<int> low, high;
+    for (unsigned i = 0; i < half; ++i) {
+        low.push_back(static_cast<int>(i));
+        high.push_back(static_cast<int>(half + i));
+    }
+    addRegisters(b_.CreateShuffleVector(vector, low), out);
+    addRegisters(b_.CreateShuffleVector(vector, high), out);
+}
+
 /// One look at all results: a sum of them shows infinities and NaN. It may overflow where none of them does; then the
 /// loop itself does the work.
-llvm::Value* RoutineEmitter::allFinite(const WideLoop& wide,
-                                       const std::unordered_map<ir::ValueId, Value*>& values) {
+llvm::Value* RoutineEmitter::allFinite(const WideLoop& wide, const WideParts& parts) {
     Value* fine = b_.getTrue();
     for (const ValueId id : wide.checks_) {
-        Value* sum = wideOperand(wide, routine_.insts[id], 0, values);
-        auto* type = llvm::cast<llvm::FixedVectorType>(sum->getType());
-        const unsigned lanes = kRegister / (type->getScalarSizeInBits() / 8);
-        while (type->getNumElements() > lanes) {
-            const unsigned half = type->getNumElements() / 2;
-            std::vector<int> low, high;
-            for (unsigned i = 0; i < half; ++i) {
-                low.push_back(static_cast<int>(i));
-                high.push_back(static_cast<int>(half + i));
-            }
-            sum = b_.CreateFAdd(b_.CreateShuffleVector(sum, low), b_.CreateShuffleVector(sum, high));
-            type = llvm::cast<llvm::FixedVectorType>(sum->getType());
+        std::vector<Value*> sums;
+        for (const WideValues& values : parts)
+            addRegisters(wideOperand(wide, routine_.insts[id], 0, values), sums);
+        // Two chains: each register more that a tree needs is copied, and rounds overlap anyhow.
+        while (sums.size() > 2) {
+            Value* last = sums.back();
+            sums.pop_back();
+            Value*& chain = sums[sums.size() % 2];
+            chain = b_.CreateFAdd(chain, last);
         }
-        // x - x is NaN exactly when x is infinite or NaN.
-        Value* difference = b_.CreateFSub(sum, sum);
-        Value* bad = b_.CreateFCmpUNO(difference, difference);
-        fine = b_.CreateAnd(fine, b_.CreateNot(b_.CreateOrReduce(bad)));
+        if (sums.size() == 2) sums[0] = b_.CreateFAdd(sums[0], sums[1]);
+        // x - x is +0 when x is finite, otherwise NaN.
+        Value* difference = b_.CreateFSub(sums[0], sums[0]);
+        const auto bits = static_cast<unsigned>(difference->getType()->getPrimitiveSizeInBits());
+        Value* none = b_.CreateIsNull(b_.CreateBitCast(difference, b_.getIntNTy(bits)));
+        fine = b_.CreateAnd(fine, none);
     }
     return fine;
 }

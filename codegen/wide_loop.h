@@ -46,6 +46,9 @@ class WideLoop {
     Kind kindOf(ir::ValueId id) const;
     uint32_t loadedLocal(const ir::Inst& inst) const;
     bool isStored(uint32_t local) const;
+    bool chooseWidth();
+    std::optional<int64_t> knownRounds() const;
+    std::optional<int64_t> initialValue(ir::ValueId value) const;
 
     const ir::Module& module_;
     const ir::Routine& routine_;
@@ -56,7 +59,8 @@ class WideLoop {
     std::unordered_map<ir::ValueId, Lane> lanes_;
     std::vector<ir::ValueId> scalars_;                 ///< objects that are read as a whole
     std::vector<ir::ValueId> loads_, stores_, checks_; ///< of elements
-    unsigned width_ = 0;                               ///< rounds at once
+    unsigned part_ = 0;                                ///< rounds in one vector
+    unsigned width_ = 0;                               ///< rounds at once: a multiple of part_
 };
 
 } // namespace codegen

@@ -70,6 +70,7 @@ void ArgumentScan::token(TokenIndex t) {
         if (frame.kind != Kind::Call) return;
         if (frame.valueStart < t || frame.optional) endArgument(frame);
         frame.optional = true;
+        frame.conditional = false;
         frame.call.parameter = -1;
         frame.call.atName = true;
         frame.valueStart = t + 1;
@@ -77,6 +78,7 @@ void ArgumentScan::token(TokenIndex t) {
     case TokenKind::Assign:
     case TokenKind::Question:
         if (frame.kind == Kind::Call) argumentName(frame, t);
+        frame.conditional = kind(t) == TokenKind::Question;
         return;
     case TokenKind::Identifier:
         if (frame.kind == Kind::Call && frame.call.atName) {
@@ -128,7 +130,7 @@ void ArgumentScan::separator(Frame& frame, TokenIndex t) {
     if (frame.kind == Kind::Aggregate) ++frame.member;
     if (frame.kind == Kind::Call) {
         endArgument(frame);
-        frame.optional = frame.call.atName = false;
+        frame.optional = frame.call.atName = frame.conditional = false;
         choosePositional(frame);
     }
     frame.valueStart = t + 1;
@@ -290,8 +292,15 @@ void ArgumentScan::expectedOf(const Frame& frame, Cursor& cursor) const {
     const auto& call = frame.call;
     if (!call.routine || call.parameter < 0) return;
     const DataSymbol& param = *call.routine->params[static_cast<size_t>(call.parameter)];
-    if (frame.valueStart == at_) cursor.mode = param.mode;
+    const bool atValue = frame.valueStart == at_;
+    if (atValue) cursor.mode = param.mode;
     cursor.accepts = param.accepts;
+    if (!param.optional && atValue)
+        for (const DataSymbol* other : call.routine->params)
+            if (!other->optional && other->group == param.group && other->requiredAlternative)
+                cursor.alternatives.push_back(other);
+    if (cursor.alternatives.size() < 2) cursor.alternatives.clear();
+    cursor.optionalParameter = frame.conditional || call.routine->role == Role::Present;
     if (!param.type.type || param.type.type->kind != TypeKind::AnyType) return;
     cursor.anyType = true;
     cursor.type = {};

@@ -32,8 +32,9 @@ class ArgumentScan {
         uint32_t member = 0; ///< of an aggregate
         // Calls
         CallContext call;
-        uint32_t required = 0; ///< positional arguments before this one
-        bool optional = false; ///< the current argument is one
+        uint32_t required = 0;    ///< positional arguments before this one
+        bool optional = false;    ///< the current argument is one
+        bool conditional = false; ///< after `?`
     };
 
     void scan();

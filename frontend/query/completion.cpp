@@ -205,18 +205,44 @@ class Completer {
         item->snippet = escaped(routine.name) + (arguments.empty() ? "" : " " + arguments) + ";$0";
     }
 
+    /// What is known to be absent or present: of the type that the argument has.
+    void optionalParameters() {
+        if (!scope_.around().routine) return;
+        const Type* type = cursor_.type.type;
+        for (const DataSymbol* param : scope_.around().routine->params)
+            if (param->optional && (!type || (param->type.type && param->type.type->base() == type->base())))
+                add(*param, kBest, true);
+    }
+
     void values() {
-        const FitRules rules(cursor_);
+        if (cursor_.optionalParameter) return optionalParameters();
+        const std::vector<Cursor> wanted = alternatives();
+        std::vector<FitRules> rules(wanted.begin(), wanted.end());
         const bool callFollows = nextCharacter() == '(';
         for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
             if (isCancelled(cancel_)) return;
             if (symbol->kind == SymbolKind::Type || !matches(symbol->name)) continue;
-            const Fit fit = rules.of(*symbol);
+            Fit fit = Fit::Misfit;
+            for (const FitRules& one : rules)
+                fit = std::min(fit, one.of(*symbol));
             if (fit == Fit::Misfit) continue;
             addValue(*symbol, fit, callFollows);
         }
         if (cursor_.mode == ParamMode::In && cursor_.expect == Expect::Expression) constants();
         if (options_.newData) newPoint();
+    }
+
+    /// What is expected, once for each parameter that the argument may belong to.
+    std::vector<Cursor> alternatives() const {
+        std::vector<Cursor> all(std::max<size_t>(1, cursor_.alternatives.size()), cursor_);
+        for (size_t i = 0; i < cursor_.alternatives.size(); ++i) {
+            const DataSymbol& param = *cursor_.alternatives[i];
+            all[i].anyType = param.type.type && param.type.type->kind == TypeKind::AnyType;
+            all[i].type = all[i].anyType ? DataType{} : param.type;
+            all[i].mode = param.mode;
+            all[i].accepts = param.accepts;
+        }
+        return all;
     }
 
     void addValue(const Symbol& symbol, Fit fit, bool callFollows) {

@@ -120,12 +120,18 @@ class CursorReader {
             if (kModeWords.has(before) && (t < 2 || !kBeforeParameter.has(kind(t - 2))))
                 return localStart(t - 1);
             // A ';' is missing: two values in a row, on two lines.
-            const bool word =
-                t == at_ ? cursor_.word.end > cursor_.word.begin || depth == 0 : isWord(kind(t));
+            const bool word = t == at_ ? !beginsWithLiteral() : isWord(kind(t));
             if (depth == 0 && word && endsValue(before) && onNewLine(t) && (t != at_ || !continuesHeader(t)))
                 return t;
         }
         return t;
+    }
+    /// No letters are written at the offset, and a literal begins there: it is an argument.
+    bool beginsWithLiteral() const {
+        const TokenKind k = kind(at_);
+        return cursor_.word.begin == cursor_.word.end && at_ < tree_.tokens.size() &&
+               tree_.tokens[at_].offset == offset_ &&
+               (k == TokenKind::StringLiteral || k == TokenKind::NumLiteral);
     }
     /// After `PROC name` and its like no instruction begins yet.
     bool continuesHeader(TokenIndex t) const {
@@ -178,6 +184,7 @@ class CursorReader {
             if (node->kind == NodeKind::Record && tree_.range(*node).begin < offset_ &&
                 offset_ < tree_.range(*node).end)
                 return type();
+        if (!around.routineDecl && inOpenRecord()) return type();
         if (around.routineDecl || (around.module && !around.module->decl))
             cursor_.expect = Expect::Statement;
         else

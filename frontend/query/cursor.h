@@ -52,8 +52,11 @@ struct Cursor {
     std::optional<CallContext> call;                ///< the innermost argument list
     const sema::Type* record = nullptr;             ///< Component: of the value before the dot
     std::vector<syntax::TokenKind> keywords;        ///< that may follow, besides
-    bool instruction = false;                       ///< Keyword: an instruction may begin here, too
-    bool errorNumber = false; ///< in the list of an ERROR clause, or compared with ERRNO
+    /// Required parameters of which one is given here: `signaldi Signal | PERS bool PersBool`. Empty: there is one only.
+    std::vector<const sema::DataSymbol*> alternatives;
+    bool instruction = false;       ///< Keyword: an instruction may begin here, too
+    bool optionalParameter = false; ///< after `?` and in Present: an optional parameter of the routine
+    bool errorNumber = false;       ///< in the list of an ERROR clause, or compared with ERRNO
 };
 
 /// `scope` is that of the offset.

@@ -112,6 +112,12 @@ class NameWalker {
             componentOf(own, part->name, Access::Declaration);
         }
     }
+    void label(const Node& n) {
+        if (!file_.facts) return;
+        for (size_t i = 0; i < file_.facts->labels.size(); ++i)
+            if (file_.facts->labels[i].decl == &n)
+                return add(as<LabelStmt>(n).name, &file_.facts->labels[i], Access::Declaration);
+    }
     const Symbol* kept(const Node& n) const {
         if (!file_.facts) return nullptr;
         const auto found = file_.facts->references.find(&n);
@@ -130,6 +136,11 @@ class NameWalker {
         case NodeKind::Call: call(n, as<CallExpr>(n).name); break;
         case NodeKind::CallStmt: call(n, as<CallStmt>(n).name); break;
         case NodeKind::Goto: add(as<GotoStmt>(n).label, kept(n)); return;
+        case NodeKind::Label: return label(n);
+        case NodeKind::Break:
+        case NodeKind::Continue:
+            if (boundCallOf(file_, n)) call(n, n.first);
+            return;
         case NodeKind::Connect: add(as<ConnectStmt>(n).trap, kept(n), Access::Call); break;
         case NodeKind::For: declaration(n, as<ForStmt>(n).variable); break;
         case NodeKind::Record: return record(as<RecordDecl>(n));

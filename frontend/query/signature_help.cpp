@@ -1,6 +1,7 @@
 #include "frontend/query/signature_help.h"
 
 #include "frontend/query/describe.h"
+#include "frontend/query/name_walk.h"
 #include "frontend/query/optional_names.h"
 #include "frontend/sema/names.h"
 
@@ -41,6 +42,22 @@ int parameterNamed(const CallContext& call, std::string_view letters) {
     return -1;
 }
 
+/// The parameter that the checker has found for the argument at the offset: one of several that exclude each other, perhaps.
+int boundParameter(const FileView& file, const CallContext& call, uint32_t offset) {
+    for (const Node* node : nodesAt(file, offset)) {
+        const BoundCall* bound = boundCallOf(file, *node);
+        if (!bound || bound->routine != call.routine) continue;
+        for (const BoundArg& arg : bound->args) {
+            if (!arg.param || !arg.argument || arg.argument->first == kNoToken) continue;
+            const SourceRange range = file.tree->range(*arg.argument);
+            if (offset < range.begin || offset > range.end) continue;
+            for (size_t i = 0; i < call.routine->params.size(); ++i)
+                if (call.routine->params[i] == arg.param) return static_cast<int>(i);
+        }
+    }
+    return -1;
+}
+
 } // namespace
 
 std::optional<SignatureHelp> signatureHelpAt(const Snapshot& snapshot, const FileView& file,
@@ -61,6 +78,8 @@ std::optional<SignatureHelp> signatureHelpAt(const Snapshot& snapshot, const Fil
         help.parameters.push_back(
             {parameter.begin, parameter.end, parameterDocumentation(snapshot, *parameter.parameter)});
     help.active = call.atName ? parameterNamed(call, cursor.prefix) : call.parameter;
+    if (!cursor.alternatives.empty())
+        if (const int bound = boundParameter(file, call, offset); bound >= 0) help.active = bound;
     return help;
 }
 

@@ -25,7 +25,7 @@ class Scopes : CheckerPart {
     TypeSymbol* findType(NameId name) const;
 
   private:
-    /// What the module declares, or the one whose guest it is.
+    /// Finds what the module declares, or the one whose guest it is.
     Symbol* inModule(NameId name) const;
 };
 

@@ -243,6 +243,9 @@ struct Native {
     TypeId result = kVoid;
     std::vector<TypeId> params;
     bool watches = false; ///< goes on looking at persistents it was given: stores to them become safepoints
+    bool finite = false;  ///< plain; the result is never infinite or NaN
+    bool bounded =
+        false; ///< the result exceeds the largest magnitude among the numbers it takes by at most 1
 };
 
 // ---- Module ----------------------------------------------------------------------------------------------

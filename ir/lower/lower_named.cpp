@@ -295,8 +295,8 @@ void ProgramLowering::addTablesOf(uint32_t task, const sema::Module& module, boo
 
 /// Needed when the program is complete: what it asks for by name.
 void ProgramLowering::addTables() {
-    const bool callsByName =
-        options_.callsByName || natives_.contains("rt_lateCall") || erases_ || program_.uses(sema::Trait::CallsLater);
+    const bool callsByName = options_.callsByName || natives_.contains("rt_lateCall") || erases_ ||
+                             program_.uses(sema::Trait::CallsLater);
     for (uint32_t task = 0; task < program_.tasks.size(); ++task)
         for (const sema::Module* module : program_.tasks[task]->modules)
             addTablesOf(task, *module, callsByName);

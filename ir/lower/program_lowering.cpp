@@ -390,6 +390,8 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
     native.watches = symbol.effects == sema::Effects::Watches ||
                      (symbol.traits.has(sema::Trait::WatchesData) &&
                       (isGiven(symbol, "persbool") || isGiven(symbol, "persboolbreak")));
+    native.finite = symbol.traits.has(sema::Trait::Finite);
+    native.bounded = symbol.traits.has(sema::Trait::Bounded);
     return addNative(std::move(native));
 }
 

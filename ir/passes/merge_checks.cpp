@@ -47,6 +47,7 @@ class CheckMerger {
     bool isBarrier(const Inst& i) const {
         if (i.op == Op::CheckFinite || i.op == Op::Load || i.op == Op::Store || i.op == Op::Stmt)
             return false;
+        if (i.op == Op::Select) return true; // what it compares may not be a number yet
         return opInfo(i.op).terminator || opInfo(i.op).touchesMemory || mayRaise(module_, i);
     }
 
@@ -137,7 +138,23 @@ class CheckMerger {
         sums.pop_back();
         PartialSum& before = sums.back();
         out.push_back(add(Op::FAdd, valueType(inst(last.value)), {before.value, last.value}, stmt));
+        routine_.insts[out.back()].extra = 1; // for the check only
         before = {out.back(), std::max(before.level, last.level) + 1};
+    }
+
+    /// Appends what says whether all values are finite. One comparison serves both widths.
+    ValueId areFinite(std::vector<PartialSum> (&sums)[2], StmtId stmt, std::vector<ValueId>& out) {
+        for (std::vector<PartialSum>& sum : sums)
+            while (sum.size() > 1)
+                joinLast(sum, stmt, out);
+        if (!sums[0].empty() && !sums[1].empty()) {
+            out.push_back(add(Op::FWiden, kF64, {sums[0][0].value}, stmt));
+            sums[1].push_back({out.back(), 0});
+            joinLast(sums[1], stmt, out);
+        }
+        const std::vector<PartialSum>& sum = sums[1].empty() ? sums[0] : sums[1];
+        out.push_back(add(Op::IsFinite, kBool, {sum[0].value}, stmt));
+        return out.back();
     }
 
     void merge(BlockId b, const Region& region) {
@@ -164,16 +181,7 @@ class CheckMerger {
             }
             fast.push_back(id);
         }
-        ValueId fine = kNone;
-        for (std::vector<PartialSum>& sum : sums) {
-            if (sum.empty()) continue;
-            while (sum.size() > 1)
-                joinLast(sum, stmt, fast);
-            const ValueId finite = add(Op::IsFinite, kBool, {sum[0].value}, stmt);
-            fast.push_back(finite);
-            if (fine != kNone) fast.push_back(add(Op::And, kBool, {fine, finite}, stmt));
-            fine = fast.back();
-        }
+        const ValueId fine = areFinite(sums, stmt, fast);
         const auto rest = static_cast<BlockId>(routine_.blocks.size());
         const ValueId branch = add(Op::CondBr, kVoid, {fine}, stmt);
         routine_.insts[branch].target[0] = rest;

@@ -255,6 +255,8 @@ class ModuleParser {
         }
         if (!in_.punct(')')) return false;
         native.watches = in_.takeWord("watches");
+        native.finite = in_.takeWord("finite");
+        native.bounded = in_.takeWord("bounded");
         module_.natives.push_back(std::move(native));
         return in_.endOfLine();
     }

@@ -114,7 +114,8 @@ void printNative(Out& out, const Native& native) {
         native.nativeClass == NativeClass::Const ? "const" : "plain", typeName(native.result));
     for (size_t i = 0; i < native.params.size(); ++i)
         put(out, "{}{}", i ? ", " : "", typeName(native.params[i]));
-    put(out, "){}\n", native.watches ? " watches" : "");
+    put(out, "){}{}{}\n", native.watches ? " watches" : "", native.finite ? " finite" : "",
+        native.bounded ? " bounded" : "");
 }
 
 class RoutinePrinter {
@@ -233,6 +234,7 @@ class RoutinePrinter {
     void instruction(const Inst& inst) {
         put(out_, "{}", opInfo(inst.op).text);
         if ((inst.op == Op::IAdd || inst.op == Op::IMul) && inst.extra == 1) put(out_, " nsw");
+        if (inst.op == Op::FAdd && inst.extra == 1) put(out_, " loose");
         if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
         switch (opInfo(inst.op).form) {
         case Form::Plain: operands(inst); return;

@@ -174,6 +174,7 @@ bool RoutineParser::sysvar(Inst& inst) {
 
 bool RoutineParser::body(Inst& inst) {
     if ((inst.op == Op::IAdd || inst.op == Op::IMul) && in_.takeWord("nsw")) inst.extra = 1;
+    if (inst.op == Op::FAdd && in_.takeWord("loose")) inst.extra = 1;
     if (opInfo(inst.op).showsType && !in_.type(module_, inst.type)) return false;
     switch (opInfo(inst.op).form) {
     case Form::Plain: return values(inst);

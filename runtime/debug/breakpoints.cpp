@@ -39,8 +39,7 @@ bool isPlace(const RoutineDesc& routine, std::string_view where) {
 
 Breakpoint Breakpoints::addLine(std::string_view where, uint32_t line) {
     std::string place(where);
-    return addLine(
-        place, line, [place](const RoutineDesc& routine) { return isPlace(routine, place); }, {});
+    return addLine(place, line, [place](const RoutineDesc& routine) { return isPlace(routine, place); }, {});
 }
 
 Breakpoint Breakpoints::addLine(std::string where, uint32_t line,
@@ -141,8 +140,7 @@ std::vector<int> Breakpoints::stopsAt(const Breakpoint& breakpoint, const Routin
     if (breakpoint.line == 0) return {firstStatement(routine)};
     for (uint32_t s = 0; s < routine.statementCount; ++s) {
         const StmtDesc& statement = routine.statements[s];
-        if (statement.canStart != 0 && statement.line == breakpoint.actualLine)
-            return {static_cast<int>(s)};
+        if (statement.canStart != 0 && statement.line == breakpoint.actualLine) return {static_cast<int>(s)};
     }
     return {};
 }
@@ -195,15 +193,18 @@ bool Breakpoints::isAt(const Frame& at) const {
 
 bool Breakpoints::dataStops(Task& task, Frame* at) {
     if (watches_.empty()) return false;
-    std::vector<int> hits;
+    std::vector<DataWatch> changed; // copies: a condition that waits lets clients change the list
     for (DataWatch& watch : watches_) {
         std::string value = watch.read();
         if (value == watch.last) continue;
-        std::string change = fmt::format("{} has changed", watch.name);
         watch.last = std::move(value);
+        changed.push_back(watch);
+    }
+    std::vector<int> hits;
+    for (const DataWatch& watch : changed) {
         if (watch.accepts && !watch.accepts(task, at)) continue;
         hits.push_back(watch.id);
-        change_ = std::move(change);
+        change_ = fmt::format("{} has changed", watch.name);
     }
     if (hits.empty()) return false;
     hits_ = std::move(hits);

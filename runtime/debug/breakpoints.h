@@ -18,11 +18,11 @@ using BreakCondition = std::function<bool(Task& task, Frame* at)>;
 
 struct Breakpoint {
     int id = 0;
-    std::string file;        ///< as given: a path, a file name or the name of a module; or ROUTINE, MODULE:ROUTINE
-    uint32_t line = 0;       ///< as given, from 1; 0: at the beginning of a routine
+    std::string file;  ///< as given: a path, a file name or the name of a module; or ROUTINE, MODULE:ROUTINE
+    uint32_t line = 0; ///< as given, from 1; 0: at the beginning of a routine
     uint32_t actualLine = 0; ///< of the statement that stops; 0: there is none
     bool waits = false;      ///< no module (or routine) of that name is in memory; it may be loaded later
-    const RoutineDesc* routine = nullptr; ///< that holds the statement
+    const RoutineDesc* routine = nullptr;           ///< that holds the statement
     std::function<bool(const RoutineDesc&)> covers; ///< whether a routine lies in that file
     BreakCondition accepts;                         ///< empty: always
 };

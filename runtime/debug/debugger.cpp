@@ -101,8 +101,12 @@ int32_t Debugger::beforeStatement(Task& task, Frame* at) {
         if (const std::string problem = startBackward(task, state, at); !problem.empty())
             host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
         if (state.backwardFrame != nullptr) return goOn(state, at, here);
-    } else if (!shouldStop(task, state, at, reason)) {
-        return here;
+    } else {
+        const bool inUndo = task.isUnwinding();
+        const bool stops = shouldStop(task, state, at, reason);
+        if (!inUndo && task.isUnwinding())
+            return kUnwindSilent; // the run ended while a condition was evaluated
+        if (!stops) return here;
     }
     return stopHere(task, state, at, here, reason);
 }
@@ -181,7 +185,9 @@ Status Debugger::standStill(Task& task, StopReason reason) {
 }
 
 Status Debugger::handledErrorRaised(Task& task, int number) {
-    if (client_ == nullptr || quit_ || !client_->stopsAtHandledError(task, number)) return kOk;
+    if (client_ == nullptr || quit_ || (task.frame != nullptr && task.frame->routine->noStepIn != 0) ||
+        !client_->stopsAtHandledError(task, number))
+        return kOk;
     stateOf(task).mode = Mode::Run;
     return standStill(task, StopReason::Raised);
 }
@@ -190,7 +196,7 @@ void Debugger::noteError(Task& task) {
     if (client_ == nullptr || client_->stopsAtError(task))
         noteStop(task, StopReason::Error);
     else
-        errorEndsRun_ = true;
+        errorEndsRun_ = errorEndsRun_ || task.kind() == TaskKind::Normal;
 }
 
 Status Debugger::stopInside(Task& task) {
@@ -313,7 +319,8 @@ void Debugger::continuous(Task& task) {
 
 std::string Debugger::run() {
     for (const auto& task : host_.tasks()) {
-        const bool concerned = task->kind() == TaskKind::Normal || task->stopCause() == StopCause::Step;
+        const bool concerned = task->kind() == TaskKind::Normal || task->stopCause() == StopCause::Step ||
+                               task->stopCause() == StopCause::Error;
         if (!concerned || !task->isStopped() || task->state() == TaskState::Finished) continue;
         continuous(*task);
         if (std::string problem = begin(*task, Mode::Run, true); !problem.empty()) return problem;
@@ -387,6 +394,18 @@ std::string Debugger::pointerToMain() {
     host_.actionPpToMain();
     for (const auto& task : host_.tasks())
         forget(*task);
+    return "";
+}
+
+std::string Debugger::enterRoutine(Task& task) {
+    if (std::string problem = refusal(task); !problem.empty()) return problem;
+    watch();
+    State& state = stateOf(task);
+    state.mode = Mode::In;
+    state.passFirst = false;
+    held_ = false;
+    task.setStepwise(true);
+    task.resume();
     return "";
 }
 

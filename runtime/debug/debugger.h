@@ -36,9 +36,9 @@ enum class StopReason : uint8_t {
 /// Whoever debugs the program.
 class DebugClient {
   public:
-    /// Called by the scheduler's thread, outside all tasks, when the program stands still. From now on nothing executes and
-    /// virtual time stands until an order to the debugger lets the program go on, or `quit`. The order may be given here or
-    /// later, by a command from the inbox of the scheduler.
+    /// Called by the scheduler's thread, outside all tasks, when the program has stopped. From now on nothing executes and
+    /// virtual time does not pass until an order to the debugger lets the program continue, or `quit`. The order may be given
+    /// here or later, by a command from the inbox of the scheduler.
     virtual void stopped(Debugger& debugger, Task& task, StopReason reason) = 0;
     /// Whether the program stops at an error that nothing takes; else the run ends as it does without a client.
     virtual bool stopsAtError(const Task&) { return true; }
@@ -69,9 +69,9 @@ class Debugger final : public StepHook {
     bool available() const;
     /// Called between tasks: lets the client speak when the program stands still. True: the run is to end.
     bool poll();
-    /// The program stands still for the client: nothing executes, virtual time stands.
+    /// The program is held for the client: nothing executes, virtual time does not pass.
     bool holds() const;
-    /// It has been told so, and no order has followed. Code that the client lets a task execute does not change that.
+    /// The client knows of the stop, and no order has followed. Code that it lets a task execute does not change that.
     bool standsStill() const { return held_; }
     /// The client may start the tasks that are stopped.
     bool mayStart() const { return client_ != nullptr && !errorEndsRun_; }
@@ -83,8 +83,8 @@ class Debugger final : public StepHook {
 
     // ---- Orders; each returns "" or why it is refused. The other tasks execute while one is stepped, unless it is to be
     // stepped alone.
-    /// Stops everything. A task that executes stands ahead of a statement then where that can be done at once. The stop is that
-    /// of `task`.
+    /// Stops everything. If `task` executes, it is stopped before its next statement, as far as that comes soon. The stop is
+    /// that of `task`.
     std::string pause(Task& task);
     std::string run();
     /// One task only.
@@ -109,6 +109,8 @@ class Debugger final : public StepHook {
     /// The call chain is left with its UNDO handlers; the next start executes the routine.
     std::string pointerToRoutine(Task& task, std::string_view name);
     std::string pointerToMain();
+    /// After pointerToRoutine: the routine is entered, and the task stops before its first statement.
+    std::string enterRoutine(Task& task);
 
     // ---- Looking at things
     std::vector<DebugFrame> frames(const Task& task) const;
@@ -133,7 +135,7 @@ class Debugger final : public StepHook {
     bool allowsCall(Task& task, const Frame* caller, const RoutineDesc& callee);
     /// Stands still inside an instruction (at the circle point of a MoveC).
     Status stopInside(Task& task);
-    /// A task was stopped by an error.
+    /// The system handler has stopped a task because of an error.
     void noteError(Task& task);
 
     // ---- StepHook
@@ -150,7 +152,7 @@ class Debugger final : public StepHook {
         std::size_t depth = 0;   ///< frames when the order was given
         std::string cursorPlace; ///< run to cursor
         uint32_t cursorLine = 0;
-        uint32_t fromLine = 0; ///< Line, LineInto
+        uint32_t fromLine = 0;     ///< Line, LineInto
         Frame* standing = nullptr; ///< the task stands ahead of a statement of this frame
         bool insideCircle = false; ///< at a circle point
         bool jumped = false;       ///< another statement was chosen; its own question is passed over
@@ -194,7 +196,7 @@ class Debugger final : public StepHook {
     bool quit_ = false;
     std::map<const Task*, State> states_;
     Breakpoints breakpoints_;
-    bool held_ = false;         ///< the client has been told that the program stands still
+    bool held_ = false;         ///< the client knows that the program has stopped
     bool errorEndsRun_ = false; ///< an error has stopped the program, and the client does not stop at errors
     Task* pausing_ = nullptr;   ///< ordered to pause
     int pausePolls_ = 0;

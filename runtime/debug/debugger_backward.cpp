@@ -69,7 +69,7 @@ std::string Debugger::runBackward(Task& task) {
     return problem;
 }
 
-/// True: the task makes one more step, or stands ahead of the instruction above already.
+/// True: the task makes one more step, or is before the instruction above already.
 bool Debugger::continuesBackward(Task& task) {
     State& state = stateOf(task);
     if (!std::exchange(state.backwardOn, false)) return false;

@@ -115,8 +115,8 @@ bool Controller::runOver() {
     panel_.keepVisible();
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
-        const bool stoppedForGood = task->isStopped() && !task->hasWorkWhileStopped() && !startToCome() &&
-                                    !debugger_.mayStart();
+        const bool stoppedForGood =
+            task->isStopped() && !task->hasWorkWhileStopped() && !startToCome() && !debugger_.mayStart();
         if (!stoppedForGood) {
             programsEnded_ = kNever;
             return false;

@@ -18,7 +18,7 @@ class Task;
 
 /// Equal to the EVENT_ constants of the language.
 enum class SystemEvent : uint8_t { None, PowerOn, Start, Stop, QuickStop, Restart, Reset, Step, Visit };
-inline constexpr std::size_t kSystemEvents = 8; ///< without Visit, which is no event of the language
+inline constexpr std::size_t kSystemEvents = 8; ///< without Visit, which belongs to no event of the language
 
 /// POWER_ON, START ... as the configuration spells it; None when it is no such word.
 SystemEvent systemEventOf(std::string_view shelf);

@@ -219,7 +219,7 @@ RunEnd Scheduler::run(const std::function<bool()>& isOver) {
     }
 }
 
-/// False: the program goes on.
+/// False: the program continues.
 bool Scheduler::holdStill() {
     if (!holds_()) return false;
     if (beforeSleep_) beforeSleep_();

@@ -78,7 +78,7 @@ class Scheduler {
     void setBeforeSleep(std::function<void()> hook) { beforeSleep_ = std::move(hook); }
     /// Commands of other threads, executed between the tasks; null: none come. Must outlive the runs.
     void setInbox(Inbox* inbox) { inbox_ = inbox; }
-    /// While `holds` is true nothing executes and virtual time stands; only commands are taken. Asked between the tasks.
+    /// While `holds` is true nothing executes and virtual time does not pass; only commands are taken. Asked between the tasks.
     void setHold(std::function<bool()> holds) { holds_ = std::move(holds); }
     /// Ends all tasks without UNDO; afterwards none is on a fibre. `run` must not be active.
     void abandonTasks();

@@ -440,6 +440,9 @@ Status Task::requireMovementAllowed() {
     const SystemEvent event = events_.running();
     if (!undo && (event == SystemEvent::None || event == SystemEvent::Start)) return kOk;
     if (undo) return fatal(static_cast<int>(EventId::MovementForbidden), "an UNDO handler");
+    if (event == SystemEvent::Visit)
+        return fatal(static_cast<int>(EventId::MovementForbidden),
+                     "an expression or the console of the debugger");
     return fatal(static_cast<int>(EventId::MovementForbidden),
                  std::string("a routine of the event ") + nameOf(event));
 }

@@ -314,7 +314,7 @@ class CommandTest:
         for command_line, expectations in self.steps():
             command = [context.rapidc if word == "rapidc" else fill(word) for word in shlex.split(command_line)]
             stdin = "".join(value + "\n" for key, value in expectations if key == "stdin")
-            output = execute(command, scratch, HANGS_AFTER_S, stdin.encode())
+            output = execute(command, scratch, HANGS_AFTER_S, stdin.encode(), {"RAPIDC": context.rapidc})
             for problem in self.judge(expectations, output, scratch):
                 problems.append(problem + "\n" + describe_failure(command, output) +
                                 "\nstdout: " + output.stdout[:1500])

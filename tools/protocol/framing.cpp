@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <utility>
@@ -22,9 +22,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 bool isLengthName(std::string_view name) {
-    return std::equal(name.begin(), name.end(), kLengthName.begin(), kLengthName.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == b;
-    });
+    return std::equal(name.begin(), name.end(), kLengthName.begin(), kLengthName.end(),
+                      [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
 bool readNumber(std::string_view text, std::size_t& number) {
@@ -43,7 +42,8 @@ FrameReader::Result FrameReader::readHeader() {
     const std::string_view rest = std::string_view(buffer_).substr(begin_);
     std::size_t size = 4;
     std::size_t end = rest.find("\r\n\r\n");
-    if (const std::size_t plain = rest.find("\n\n"); plain < end) { // some clients leave out the carriage returns
+    if (const std::size_t plain = rest.find("\n\n");
+        plain < end) { // some clients leave out the carriage returns
         end = plain;
         size = 2;
     }

@@ -26,7 +26,7 @@ class FrameReader {
     Result next(std::string& message);
     const std::string& problem() const { return problem_; }
     /// Bytes of a message that is not complete.
-    bool isInside() const { return begin_ < buffer_.size(); }
+    bool isInside() const { return inBody_ || begin_ < buffer_.size(); }
 
   private:
     Result broken(std::string problem);

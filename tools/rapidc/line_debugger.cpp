@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <unistd.h>
+#include <utility>
 
 namespace rapidc {
 
@@ -65,15 +66,16 @@ const std::vector<LineDebugger::Command>& LineDebugger::commands() {
         {"continue c run", "", "execute until something stops the program", &D::run},
         {"cursor", "[MODULE:]LINE", "execute until this line", &D::cursor},
         {"pp", "LINE | ROUTINE | main", "move the program pointer", &D::pointer},
-        {"break", "[MODULE:]LINE", "stop before this line", &D::breakAt},
+        {"break", "[MODULE:]LINE [IF CONDITION]", "stop before this line", &D::breakAt},
         {"breaks", "", "list the breakpoints", &D::breakpoints},
         {"delete", "NUMBER", "remove a breakpoint", &D::deleteBreakpoint},
         {"where w bt", "", "show the call chain", &D::where},
         {"frame f", "NUMBER", "look at another routine of the call chain", &D::selectFrame},
         {"locals", "", "show parameters and data of the routine", &D::locals},
         {"globals", "[TEXT]", "show data of the modules (whose name contains TEXT)", &D::globals},
-        {"print p", "NAME[{INDEX}][.COMPONENT]", "show a value", &D::print},
+        {"print p", "EXPRESSION", "show a value", &D::print},
         {"set", "NAME := VALUE", "change a value", &D::set},
+        {"do", "INSTRUCTIONS", "execute instructions here", &D::perform},
         {"tasks", "", "list the tasks", &D::tasks},
         {"task", "NAME", "look at another task", &D::selectTask},
         {"list l", "", "show the program around the place", &D::list},
@@ -86,19 +88,15 @@ const std::vector<LineDebugger::Command>& LineDebugger::commands() {
 }
 
 void LineDebugger::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason reason) {
-    debugger_ = &debugger;
-    task_ = &task;
-    frames_ = debugger.frames(task);
-    selected_ = 0;
     controller_.panel().flush();
     controller_.log().flush();
-    const bool atMain = task.stopCause() == rt::StopCause::AtMain;
-    fmt::print("[{}] {}", reasonText(reason), task.name());
-    if (atMain || frames_.empty()) {
-        fmt::print(": the program pointer is at the beginning\n");
-    } else {
-        fmt::print(": ");
-        showPlace(frames_[0].place);
+    if (!std::exchange(sameStop_, false)) {
+        debugger_ = &debugger;
+        task_ = &task;
+        reason_ = reason;
+        frames_ = debugger.frames(task);
+        selected_ = 0;
+        showStop();
     }
     for (;;) {
         if (isatty(STDIN_FILENO) != 0) fmt::print("(rapidc) ");
@@ -115,6 +113,17 @@ void LineDebugger::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReaso
         if (!text.empty()) lastCommand_ = std::string(text);
         if (execute(lastCommand_)) return;
     }
+}
+
+void LineDebugger::showStop() {
+    const bool atMain = task_->stopCause() == rt::StopCause::AtMain;
+    fmt::print("[{}] {}", reasonText(reason_), task_->name());
+    if (atMain || frames_.empty()) {
+        fmt::print(": the program pointer is at the beginning\n");
+        return;
+    }
+    fmt::print(": ");
+    showPlace(frames_[0].place);
 }
 
 bool LineDebugger::execute(std::string_view line) {
@@ -202,11 +211,35 @@ bool LineDebugger::pointer(std::string_view arguments) {
 
 // ---- Breakpoints ---------------------------------------------------------------------------------------------------
 
+bool LineDebugger::holds(rt::Task& task, rt::Frame* at, const std::string& condition) {
+    std::string problem;
+    const dap::Site site{&task, at};
+    const dap::CompiledExpression* code =
+        evaluator_.compile(site, condition, dap::ExpressionKind::Value, problem);
+    if (code != nullptr) {
+        const dap::Evaluation result = evaluator_.now(site, *code);
+        if (result.hasValue && result.value.type->kind == rt::DescKind::Bool)
+            return *static_cast<const unsigned char*>(result.value.data) != 0;
+        problem = result.problem.empty() ? "it is not a bool" : result.problem;
+    }
+    fmt::print("condition '{}': {}\n", condition, problem);
+    return true;
+}
+
 bool LineDebugger::breakAt(std::string_view arguments) {
-    std::string module;
+    std::string module, condition;
     uint32_t line = 0;
+    if (const std::size_t word = rt::upperCase(arguments).find(" IF "); word != std::string::npos) {
+        condition = std::string(rt::trimmed(arguments.substr(word + 4)));
+        arguments = arguments.substr(0, word);
+    }
     if (!readPlace(arguments, module, line)) return false;
-    const rt::Breakpoint breakpoint = debugger_->breakpoints().addLine(module, line);
+    rt::BreakCondition accepts;
+    if (!condition.empty())
+        accepts = [this, condition](rt::Task& task, rt::Frame* at) { return holds(task, at, condition); };
+    const rt::Breakpoint breakpoint = debugger_->breakpoints().addLine(
+        module, line, [module](const rt::RoutineDesc& routine) { return rt::isPlace(routine, module); },
+        std::move(accepts));
     if (breakpoint.waits)
         fmt::print("breakpoint {}: {}:{}, waits for a module of that name to be loaded\n", breakpoint.id,
                    module, line);
@@ -303,11 +336,35 @@ bool LineDebugger::globals(std::string_view arguments) {
 bool LineDebugger::print(std::string_view arguments) {
     std::string error;
     const rt::DebugVariable variable = debugger_->find(*task_, frame(), arguments, error);
-    if (error.empty())
-        fmt::print("{} {} = {}\n", rt::typeName(variable), variable.name, rt::valueText(variable));
-    else
-        fmt::print("{}\n", error);
+    if (!error.empty()) return evaluate(arguments, dap::ExpressionKind::Value);
+    fmt::print("{} {} = {}\n", rt::typeName(variable), variable.name, rt::valueText(variable));
     return false;
+}
+
+bool LineDebugger::evaluate(std::string_view text, dap::ExpressionKind kind) {
+    std::string problem;
+    const rt::DebugFrame* at = frame();
+    const dap::Site site{task_, at != nullptr ? at->frame : nullptr};
+    const dap::CompiledExpression* code = evaluator_.compile(site, std::string(text), kind, problem);
+    if (code == nullptr) {
+        fmt::print("{}\n", problem);
+        return false;
+    }
+    evaluator_.later(site, *code, [this, name = std::string(text)](const dap::Evaluation& result) {
+        controller_.panel().flush();
+        if (!result.problem.empty()) fmt::print("{}\n", result.problem);
+        if (result.hasValue)
+            fmt::print("{} {} = {}\n", rt::typeName(result.value), name, rt::valueText(result.value));
+        sameStop_ = true;
+        debugger_->noteStop(*task_, reason_);
+    });
+    return true;
+}
+
+bool LineDebugger::perform(std::string_view arguments) {
+    std::string text(arguments);
+    if (!text.empty() && text.back() != ';') text += ';';
+    return evaluate(text, dap::ExpressionKind::Orders);
 }
 
 bool LineDebugger::set(std::string_view arguments) {

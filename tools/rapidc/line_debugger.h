@@ -4,6 +4,7 @@
 
 #include "runtime/debug/debugger.h"
 #include "runtime/host/controller.h"
+#include "tools/rapidc/dap/evaluator.h"
 
 #include <map>
 #include <string>
@@ -14,7 +15,8 @@ namespace rapidc {
 
 class LineDebugger final : public rt::DebugClient {
   public:
-    explicit LineDebugger(rt::Controller& controller) : controller_(controller) {}
+    LineDebugger(rt::Controller& controller, const Compilation& compilation)
+        : controller_(controller), evaluator_(compilation, controller) {}
     /// The program stops ahead of its first instruction from now on.
     void attach();
 
@@ -49,6 +51,7 @@ class LineDebugger final : public rt::DebugClient {
     bool globals(std::string_view);
     bool print(std::string_view);
     bool set(std::string_view);
+    bool perform(std::string_view);
     bool tasks(std::string_view);
     bool selectTask(std::string_view);
     bool list(std::string_view);
@@ -57,18 +60,25 @@ class LineDebugger final : public rt::DebugClient {
 
     /// Shows what stood in the way of an order; true when nothing did.
     bool went(const std::string& problem);
+    /// Executes the text where the program has stopped. True: the scheduler has to work for that.
+    bool evaluate(std::string_view text, dap::ExpressionKind kind);
+    bool holds(rt::Task& task, rt::Frame* at, const std::string& condition);
     bool movedPointer(const std::string& problem);
     const rt::DebugFrame* frame();
     void showPlace(const rt::SourcePlace& place);
+    void showStop();
     const std::vector<std::string>& source(const std::string& file);
     /// "MODULE:LINE" or "LINE" in the module of the selected frame.
     bool readPlace(std::string_view text, std::string& module, uint32_t& line);
 
     rt::Controller& controller_;
+    dap::Evaluator evaluator_;
     rt::Debugger* debugger_ = nullptr;
     rt::Task* task_ = nullptr;
     std::vector<rt::DebugFrame> frames_;
     std::size_t selected_ = 0;
+    rt::StopReason reason_ = rt::StopReason::Entry;
+    bool sameStop_ = false; ///< an evaluation has ended, and the program is where it was
     std::string lastCommand_ = "step";
     std::map<std::string, std::vector<std::string>> sources_;
 };

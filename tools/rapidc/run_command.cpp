@@ -68,7 +68,8 @@ std::string conflictOf(const RunSettings& settings, const Compilation& compilati
     return outputConflict(compilation, {}, std::move(guard));
 }
 
-int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoader& loader) {
+int execute(RunSettings& settings, const Compilation& compilation, const rt::ProgramDesc& program,
+            rt::ModuleLoader& loader) {
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
@@ -78,7 +79,7 @@ int execute(RunSettings& settings, const rt::ProgramDesc& program, rt::ModuleLoa
         controller.saver().setStore(std::make_unique<SourceStore>());
         status = controller.prepare(program);
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
-        LineDebugger debugger(controller);
+        LineDebugger debugger(controller, compilation);
         if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
@@ -112,6 +113,7 @@ int run(RunSettings& settings) {
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
                         timesStatements(*compilation) ||
                         (!settings.options.state.empty() && !settings.noStepping);
+    compilation->callsByName = settings.interactive;
     ir::Module module;
     codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
     if (settings.inParts) options.partsAbove = 0;
@@ -142,7 +144,7 @@ int run(RunSettings& settings) {
     const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
     SourceCompiler compiler(*sources);
     rt::UnitLoader loader(compiler, rt::findNativeAddress);
-    return execute(settings, *program->program(), loader);
+    return execute(settings, *compilation, *program->program(), loader);
 }
 
 } // namespace

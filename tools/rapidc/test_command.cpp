@@ -238,7 +238,10 @@ class Session {
     bool reportCoverage() {
         std::string error;
         const rt::ProgramDesc* program = compiled_.program(error);
-        if (program == nullptr) return false;
+        if (program == nullptr) {
+            fmt::print(stderr, "rapidc test: no coverage: {}\n", error);
+            return false;
+        }
         testing::Coverage coverage(
             *program, [this](const rt::RoutineDesc& routine) { return isCounted(all_, routine); });
         for (const testing::Finished& one : results_)

@@ -32,42 +32,66 @@ class Adapters implements vscode.DebugAdapterDescriptorFactory {
     }
 }
 
-/** What the code lens "Run" of the language server names. */
-interface RoutineToRun {
+/** What the code lens "Run" of the language server gives. */
+interface Routine {
+    uri: string;
     program: string;
     task: string;
+    module: string;
     routine: string;
 }
 
-/** Runs a routine without parameters as the entry of its task, which a configuration of its own says. */
-async function runRoutine(target: RoutineToRun): Promise<void> {
+/** Runs a procedure without parameters in place of main: as the entry of its task in a configuration of its own. */
+async function runRoutine(routine: Routine): Promise<void> {
+    const uri = vscode.Uri.parse(routine.uri);
     const config: vscode.DebugConfiguration = {
-        type: "rapidc", request: "launch", name: `Run ${target.routine}`, program: target.program, noDebug: true,
+        type: "rapidc", request: "launch", name: routine.routine, program: routine.program || uri.fsPath,
     };
-    if (target.routine.toLowerCase() === "main") {
-        await vscode.debug.startDebugging(undefined, config);
+    const folder = vscode.workspace.getWorkspaceFolder(uri);
+    if (routine.routine.toLowerCase() === "main") {
+        await vscode.debug.startDebugging(folder, config);
         return;
     }
-    const folder = await mkdtemp(join(tmpdir(), "rapidc-"));
-    const file = join(folder, "SYS.cfg");
-    const entry = `      -Name "${target.task}" -Type "NORMAL" -MotionTask \\\n      -Entry "${target.routine}"\n`;
-    await writeFile(file, `SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n${entry}`);
+    const scratch = await mkdtemp(join(tmpdir(), "rapidc-entry-"));
+    const file = join(scratch, "SYS.cfg");
+    await writeFile(file, `SYS:CFG_1.0:7:0::\n#\nCAB_TASKS:\n\n      -Name "${routine.task}" -Type "NORMAL" -Entry "${routine.routine}" -MotionTask \n`);
     config["config"] = [file];
     const ended = vscode.debug.onDidTerminateDebugSession((session) => {
-        if (session.name !== config.name) return;
+        if (session.configuration["config"]?.[0] !== file) return;
         ended.dispose();
-        void rm(folder, { recursive: true, force: true });
+        void rm(scratch, { recursive: true, force: true });
     });
-    await vscode.debug.startDebugging(undefined, config);
+    if (!(await vscode.debug.startDebugging(folder, config))) ended.dispose();
+}
+
+/** Where the robot is, in the status bar, as the adapter reports it at each stop. */
+class RobotPosition implements vscode.Disposable {
+    private readonly item = vscode.window.createStatusBarItem("rapidc.robot", vscode.StatusBarAlignment.Left, 10);
+    private readonly subscriptions = [
+        vscode.debug.onDidReceiveDebugSessionCustomEvent((event) => {
+            if (event.event !== "rapidcRobot" || !Array.isArray(event.body?.tcp)) return;
+            const numbers = (list: number[]): string => list.map((value) => value.toFixed(1)).join(", ");
+            this.item.name = "Position of the robot";
+            this.item.text = `$(target) [${numbers(event.body.tcp)}]`;
+            this.item.tooltip = `TCP in mm at ${Number(event.body.time).toFixed(3)} s; axes ${numbers(event.body.joints ?? [])}`;
+            this.item.show();
+        }),
+        vscode.debug.onDidTerminateDebugSession(() => this.item.hide()),
+    ];
+    dispose(): void {
+        this.item.dispose();
+        this.subscriptions.forEach((one) => one.dispose());
+    }
 }
 
 export function registerDebugger(context: vscode.ExtensionContext): void {
     const configurations = new Configurations();
     context.subscriptions.push(
+        new RobotPosition(),
+        vscode.commands.registerCommand("rapidc.runRoutine", runRoutine),
         vscode.debug.registerDebugConfigurationProvider("rapidc", configurations),
         vscode.debug.registerDebugConfigurationProvider(
             "rapidc", configurations, vscode.DebugConfigurationProviderTriggerKind.Dynamic),
         vscode.debug.registerDebugAdapterDescriptorFactory("rapidc", new Adapters()),
-        vscode.commands.registerCommand("rapidc.runRoutine", runRoutine),
     );
 }

@@ -208,7 +208,7 @@ def test_pause_of_an_endless_loop(a):
     a.refused("pause", threadId=1)
     a.go("next")
     a.stopped("step")
-    a.ask("evaluate", expression="n := -1;", context="repl", frameId=a.top())
+    a.ask("evaluate", expression="n := -5;", context="repl", frameId=a.top())
     a.go()
     equal(a.run_out(), ["left"])
 

@@ -28,7 +28,7 @@ class Adapter:
     """A running `rapidc dap`."""
 
     def __init__(self):
-        self.process = subprocess.Popen(["rapidc", "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([os.environ.get("RAPIDC", "rapidc"), "dap"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE)
         self.messages = queue.Queue()
         self.seen = []  # every message, in order

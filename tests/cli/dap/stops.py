@@ -76,10 +76,10 @@ def test_unhandled_error(a):
     holds("ERR_DIVZERO" in stop.get("text", "") + stop.get("description", ""), str(stop))
     info = a.ask("exceptionInfo", threadId=1)
     equal((info["exceptionId"], info["breakMode"]), ("ERR_DIVZERO", "unhandled"))
-    equal(a.lines(), ["in handler"])
+    equal(a.lines(), ["in handler", "next"])
     a.ask("setExpression", expression="divisor", value="4", frameId=a.top())
     a.go()
-    equal(a.run_out(), ["in handler", "share 3"])
+    equal(a.run_out(), ["in handler", "next", "share 3"])
 
 
 def test_error_again(a):
@@ -115,13 +115,13 @@ def test_chosen_errors(a):
     a.stopped("exception", UNHANDLED)
     a.ask("setExceptionBreakpoints", filters=[])
     a.go()
-    equal(a.run_out(1), ["in handler"])
+    equal(a.run_out(1), ["in handler", "next"])
 
 
 def test_no_filter(a):
     """Contract 5: without filters the run ends with exit code 1."""
     a.start("errors.modx", filters=[])
-    equal(a.run_out(1), ["in handler"])
+    equal(a.run_out(1), ["in handler", "next"])
     errors = [m["body"] for m in a.seen if m.get("event") == "output" and "ERR_DIVZERO" in m["body"]["output"]]
     holds(errors and errors[-1]["line"] == UNHANDLED and errors[-1]["category"] != "stdout", str(errors))
 
@@ -270,6 +270,75 @@ def test_realtime_wait_can_be_paused(a):
     a.stopped("pause", line_of("waits.modx", "! long"))
     a.ask("disconnect")
     a.ended()
+
+
+def test_condition_without_end(a):
+    """pause ends the evaluation, and the program stops at the breakpoint."""
+    line = line_of("part.modx", "! call")
+    a.start("part.modx", [{"line": line, "condition": "forever() = 1"}])
+    a.ask("threads")
+    a.go("pause")
+    a.stopped("breakpoint", line)
+    a.set_lines("part.modx", [])
+    a.go()
+    a.run_out()
+
+
+def test_end_in_a_condition(a):
+    a.start("part.modx", [{"line": line_of("part.modx", "! call"), "condition": "forever() = 1"}])
+    a.ask("threads")
+    a.ask("disconnect")
+    a.ended()
+
+
+def test_goto_another_routine(a):
+    """Procedures without parameters: the pointer is at their first instruction."""
+    a.start("errors.modx", stopOnEntry=True)
+    a.stopped("entry")
+    line = line_of("errors.modx", "! handled")
+    targets = a.ask("gotoTargets", source={"path": path("errors.modx")}, line=line)["targets"]
+    a.go("goto", targetId=targets[0]["id"])
+    a.stopped("goto", line, "handled")
+    equal(a.value("zero + 1"), "1")
+    a.go()
+    equal(a.run_out(), ["in handler", "next"])
+
+
+def test_breakpoints_before_launch(a):
+    """They are not verified yet; an event follows."""
+    a.initialize()
+    made = a.set_lines("part.modx", [line_of("part.modx", "! first"), {"line": 1000}])
+    equal([m["verified"] for m in made], [False, False])
+    launched = a.send("launch", {"program": path("part.modx")})
+    a.event("initialized")
+    equal(a.event("breakpoint")["breakpoint"]["verified"], True)
+    a.ask("configurationDone")
+    a.answer(launched)
+    a.stopped("breakpoint", line_of("part.modx", "! first"))
+
+
+def test_pause_of_waits(a):
+    """A loop of waits in virtual time."""
+    a.start("two_a.modx", tasks=["T_B=" + path("polls.modx")])
+    a.event("output", output="a ends\n")
+    threads = {t["name"]: t["id"] for t in a.ask("threads")["threads"]}
+    a.go("pause", thread=threads["T_B"])
+    stop = a.stopped("pause")
+    equal(stop["threadId"], threads["T_B"])
+    a.ask("evaluate", expression="left := TRUE", frameId=a.top(threads["T_B"]), context="repl")
+    a.go()
+    a.run_out()
+
+
+def test_constants_of_routines(a):
+    a.start("polls.modx", stopOnEntry=True)
+    a.stopped("entry")
+    local = a.scope("Locals")
+    equal((local["SPAN"]["value"], local["SPAN"]["type"]), ("0.5", "num"))
+    equal(local["NAMES"]["value"], '["a","b"]')
+    equal(a.value("SPAN * 2"), "1")
+    scopes = {s["name"]: s["variablesReference"] for s in a.ask("scopes", frameId=a.top())["scopes"]}
+    a.refused("setVariable", variablesReference=scopes["Locals"], name="SPAN", value="1")
 
 
 if __name__ == "__main__":

@@ -70,9 +70,9 @@ TEST_CASE("values and names that cannot be used are refused", "[edit]") {
     CHECK_THAT(set(text, "a", "1"), Contains("m.a"));
     CHECK(set(text, "k.a", "7") == replaced(text, "k\nVAR num a:=1", "k\nVAR num a:=7"));
     CHECK_THAT(set(text, "m.a", ""), Contains("empty"));
-    CHECK_THAT(set(text, "m.a", "1;"), Contains("no value"));
+    CHECK_THAT(set(text, "m.a", "1;"), Contains("is not a value"));
     CHECK_THAT(set(text, "m.a", "1\n"), Contains("several lines"));
     CHECK_THAT(set(text, "m.a", "1 ! x"), Contains("comment"));
-    CHECK_THAT(set(text, "m.a", "[1,"), Contains("no value"));
+    CHECK_THAT(set(text, "m.a", "[1,"), Contains("is not a value"));
     CHECK_THAT(set(text, "m.a", "! x"), Contains("refused"));
 }

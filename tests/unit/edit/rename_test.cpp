@@ -144,9 +144,9 @@ TEST_CASE("names that cannot be given are refused", "[edit][rename]") {
     CHECK_THAT(renameOne(text, "m.p.z", "x"), Contains("choose another name")); // hides x in p
     CHECK_THAT(renameOne(text, "x", "MoveL"), Contains("predefined"));
     CHECK_THAT(renameOne(text, "x", "while"), Contains("word of the language"));
-    CHECK_THAT(renameOne(text, "x", "2x"), Contains("no name"));
-    CHECK_THAT(renameOne(text, "x", "a b"), Contains("no name"));
-    CHECK_THAT(renameOne(text, "x", ""), Contains("no name"));
+    CHECK_THAT(renameOne(text, "x", "2x"), Contains("is not a name"));
+    CHECK_THAT(renameOne(text, "x", "a b"), Contains("is not a name"));
+    CHECK_THAT(renameOne(text, "x", ""), Contains("is not a name"));
     CHECK_THAT(renameOne(text, "x", std::string(33, 'a')), Contains("32"));
     CHECK_THAT(renameOne(text, "nothing", "a"), Contains("no declaration"));
     CHECK_THAT(renameOne(text, "num", "a"), Contains("predefined"));

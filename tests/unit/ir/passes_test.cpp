@@ -413,3 +413,96 @@ TEST_CASE("a module without overflow keeps infinities", "[ir]") {
         run(body("f32", "    %0 = param 0\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
     CHECK(count(module.routines[0], Op::CheckFinite) == 0);
 }
+
+namespace {
+
+/// A loop that stores `lines` (whose result is %9) to a local that begins with 1; %5 is what it holds, %6 the parameter.
+size_t checksInLoop(const std::string& lines, const std::string& natives = {}) {
+    ir::Module module =
+        parse(natives +
+              "routine @\"r\" \"r\" in \"M\" f32 (f32 \"x\") {\n  local 0 f32 \"n\"\n"
+              "  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n    %0 = const f32 1\n    %1 = local 0\n"
+              "    store f32 %0, %1\n    br b1\n  b1:\n    %4 = local 0 !0\n    %5 = load f32 %4\n"
+              "    %6 = param 0\n" +
+              lines +
+              "    store f32 %9, %4\n    %10 = flt %6, %0\n    condbr %10, b1, b2\n  b2:\n"
+              "    %11 = local 0\n    %12 = load f32 %11\n    ret %12\n}\n");
+    module.overflowError = 17;
+    module = run(std::move(module), {"check-overflow"});
+    return count(module.routines[0], Op::CheckFinite);
+}
+
+} // namespace
+
+TEST_CASE("what a local can hold decides whether sums and products of it are checked", "[ir]") {
+    CHECK(checksInLoop("    %7 = const f32 1\n    %9 = fadd %5, %7\n") == 0);
+    CHECK(checksInLoop("    %9 = fadd %5, %5\n") == 1);
+    CHECK(checksInLoop("    %7 = const f32 2\n    %9 = fmul %5, %7\n") == 1);
+    // Divided again by more than it grew: bounded.
+    CHECK(checksInLoop(
+              "    %7 = const f32 2\n    %8 = fmul %5, %7\n    %13 = const f32 4\n    %9 = fdiv %8, %13\n") ==
+          0);
+    CHECK(checksInLoop("    %9 = fmul %5, %6\n") == 1);
+}
+
+TEST_CASE("a quotient by a number without fraction is not larger", "[ir]") {
+    const std::string zero = "    %7 = const f32 0\n", check = "    %8 = fne %5, %7\n    check %8, 3\n";
+    const std::string back = "    %9 = ftrunc %6\n";
+    const auto checks = [&](const std::string& lines) { return checksInLoop(zero + lines + back); };
+    CHECK(checks(check + "    %13 = fdiv %6, %5\n    %14 = feq %13, %6\n") == 0);
+    // It may be 0, or have a fraction.
+    CHECK(checks("    %13 = fdiv %6, %5\n    %14 = feq %13, %6\n") == 1);
+    CHECK(checksInLoop(zero + check +
+                       "    %13 = fdiv %6, %5\n    %14 = feq %13, %6\n    %15 = const f32 2\n" +
+                       "    %9 = fdiv %5, %15\n") == 1);
+}
+
+TEST_CASE("a remainder is as small as the divisor", "[ir]") {
+    // (n * 1000) MOD 7, as lowering writes it.
+    const std::string product = "    %7 = const f32 1000\n    %8 = fmul %5, %7\n";
+    const std::string remainder =
+        "    %13 = const f32 7\n    %14 = fdiv %8, %13\n    %15 = ftrunc %14\n    %16 = fmul %15, %13\n";
+    CHECK(checksInLoop(product + remainder + "    %9 = fsub %8, %16\n") == 0);
+    CHECK(checksInLoop(product + remainder + "    %9 = fadd %8, %16\n") > 0);
+    // x MOD 8 of any x; with 7 the product may be rounded up beyond the largest number.
+    const auto ofAny = [](const std::string& divisor) {
+        return checksInLoop("    %13 = const f32 " + divisor +
+                            "\n    %14 = fdiv %6, %13\n    %15 = ftrunc %14\n    %16 = fmul %15, %13\n"
+                            "    %9 = fsub %6, %16\n");
+    };
+    CHECK(ofAny("8") == 0);
+    CHECK(ofAny("7") == 1);
+}
+
+TEST_CASE("natives are bounded as their declaration says", "[ir]") {
+    const auto checks = [](const std::string& attributes) {
+        return checksInLoop("    %7 = native @\"rt_f\" (%5)\n    %9 = fadd %7, %5\n",
+                            "native @\"rt_f\" plain f32 (f32)" + attributes + "\n");
+    };
+    const std::string passed = "    %7 = native @\"rt_f\" (%6)\n    %8 = ftrunc %7\n    %9 = ftrunc %5\n";
+    const auto checksOfResult = [&](const std::string& attributes) {
+        return checksInLoop(passed, "native @\"rt_f\" plain f32 (f32)" + attributes + "\n");
+    };
+    CHECK(checks("") == 1); // the sum shows an infinity of the result
+    CHECK(checks(" bounded") == 1);
+    CHECK(checksOfResult("") == 1);
+    CHECK(checksOfResult(" finite") == 0);
+    CHECK(checksOfResult(" bounded") == 0);
+}
+
+TEST_CASE("locals that others may store to are not bounded", "[ir]") {
+    const auto checks = [](const std::string& more) {
+        ir::Module module =
+            parse("routine @\"r\" \"r\" in \"M\" f32 () {\n  local 0 f32 \"n\"" + more +
+                  "\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n    %0 = const f32 1\n"
+                  "    %1 = local 0\n    store f32 %0, %1\n    %2 = load f32 %1\n    %3 = fadd %2, %2\n"
+                  "    ret %3\n}\n");
+        module.overflowError = 17;
+        module.routines[0].sharedLocals = more.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{0};
+        module = run(std::move(module), {});
+        ir::checkOverflow(module, module.routines[0]);
+        return count(module.routines[0], Op::CheckFinite);
+    };
+    CHECK(checks("") == 0);
+    CHECK(checks(" ") == 1); // a detached handler gets its address
+}

@@ -287,7 +287,8 @@ TEST_CASE("moves that a seven-axis arm cannot make say why", "[motion][seven]") 
     wrong.target.conf.cfx ^= 4; // axis 2 above 0
     CHECK(kindOf(wrong) == MotionErrorKind::ConfigurationMismatch);
     wrong.kind = MoveKind::Joint;
-    wrong.target.conf.cfx = 99;
+    wrong.target.conf.cfx ^= 4;
+    wrong.target.conf.cf1 += 2;
     CHECK(kindOf(wrong) == MotionErrorKind::NoSuchConfiguration);
     MoveCommand tilted = lineBy(system, 20, 0, 0, 0);
     tilted.target.pose.rot = {2, 0, 0, 0};

@@ -247,6 +247,44 @@ TEST_CASE("query: traps, labels and late-bound procedures", "[query][completion]
     CHECK_FALSE(has(complete(program, 4), "alarm"));
 }
 
+TEST_CASE("query: one of several required parameters", "[query][completion]") {
+    sema::CheckOptions options;
+    options.signals = {{"di_found", "signaldi"}};
+    const Program program({inMain("SearchL \\Stop,$1", "PERS bool found:=FALSE;\nVAR bool other;\n")}, {},
+                          options);
+    CHECK(has(complete(program), "di_found"));
+    CHECK(has(complete(program), "found"));
+    CHECK_FALSE(has(complete(program), "other")); // not a persistent
+}
+
+TEST_CASE("query: completion at the end of a text that is being written", "[query][completion]") {
+    const std::pair<const char*, const char*> cases[] = {
+        {"MODULE m\nRECORD part\nstring name;\nd$1", "dnum"},
+        {"MODULE m\nRECORD part\n$1", "num"},
+        {"MODULE m\nPROC main()\nVAR num count;\nTP$1", "TPWrite"},
+        {"MODULE m\nPROC main()\nVAR num count;\ncount:=c$1", "count"},
+        {"MODULE m\nPROC main()\nVAR n$1", "num"},
+        {"MODULE m\nFUNC num f(num given)\nRETURN g$1", "given"},
+        {"MODULE m\nPROC main()\nFOR i FROM 1 TO 3 DO\nTPWrite \"\"\\Num:=$1", "i"},
+        {"MODULE m\nPROC main(string s)\nTEST s\nCASE $1", "s"},
+        {"MODULE m\nPROC main()\nIF TRUE TP$1", "TPWrite"},
+        {"MODULE m\nPROC main()\nIF TRUE $1", "THEN"},
+        {"MODULE m\nPROC main()\nEraseModule \"$1\";\nENDPROC\nENDMODULE\nMODULE other\nENDMODULE\n",
+         "other"},
+        {"MODULE m\nPROC main(\\num o,\\switch s)\nIF Present($1)", "s"},
+        {"MODULE m\nPROC inner(\\switch a)\nENDPROC\nPROC main(\\num o\\switch s)\ninner \\a?$1", "s"},
+        {"MODULE m\nPROC main()\n! text\n$1", "IF"},
+        {"MOD$1", "MODULE"},
+    };
+    for (const auto& [text, expected] : cases) {
+        INFO(text);
+        const Program program({text});
+        CHECK(has(complete(program), expected));
+    }
+    const Program present({"MODULE m\nPROC main(\\num o\\switch s,num r)\nVAR num v;\nIF Present($1)"});
+    CHECK(labels(complete(present)) == std::vector<std::string>{"o", "s"});
+}
+
 TEST_CASE("query: a new point is declared with its first use", "[query][completion]") {
     const Program program({inMain("MoveL $1\nMoveL pick$2,v100", kCell)});
     const CompletionList list = complete(program);

@@ -51,6 +51,7 @@ TEST_CASE("query: signature of what is being written", "[query][signature]") {
         {"TPWrite \"a\"; ! TPWrite $1", "none"},
         {"IF x=1 TPWrite $1", "string String"},
         {"unknown $1", "none"},
+        {"TPWrite\n  $1\"text\";", "string String"},
     };
     for (const auto& [text, expected] : cases) {
         INFO(text);
@@ -59,10 +60,17 @@ TEST_CASE("query: signature of what is being written", "[query][signature]") {
     }
 }
 
+TEST_CASE("query: the parameter that fits, of several that exclude each other", "[query][signature]") {
+    const Program program(
+        {inMain("BitSet $1whole,1;\nBitSet $2small,1;", "VAR dnum whole;\nVAR byte small;\n")});
+    CHECK(active(program, 1) == "INOUT dnum DnumData");
+    CHECK(active(program, 2) == "INOUT byte BitData");
+}
+
 TEST_CASE("query: documentation of the signature and its parameters", "[query][signature]") {
     const Program program({inMain("MoveJ $1")});
     const auto help = signatureHelpAt(program.snapshot(), program.file(), program.offset());
     REQUIRE(help);
     CHECK(help->documentation.find("Moves quickly") == 0);
-    CHECK(help->parameters.at(0).documentation == "execution goes on while the robot moves");
+    CHECK(help->parameters.at(0).documentation == "execution continues while the robot moves");
 }

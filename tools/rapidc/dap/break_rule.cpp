@@ -76,7 +76,8 @@ std::string BreakRule::problem(int32_t task, const rt::RoutineDesc* routine) con
     if (!condition_.empty()) {
         // The whole is a bool; the check of the expression alone would not tell.
         std::string wrong = evaluator.check(task, routine, condition_, ExpressionKind::Value);
-        if (wrong.empty() && evaluator.check(task, routine, "NOT (" + condition_ + "\n)", ExpressionKind::Value) != "")
+        if (wrong.empty() &&
+            evaluator.check(task, routine, "NOT (" + condition_ + "\n)", ExpressionKind::Value) != "")
             wrong = "the condition is not a bool";
         if (!wrong.empty()) return wrong;
     }

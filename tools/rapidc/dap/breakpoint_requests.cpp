@@ -33,7 +33,8 @@ std::function<std::string()> readerOf(Context& context, const std::string& name,
     rt::IoSystem& io = controller.io();
     const rt::SignalId signal = io.find(name);
     if (signal >= 0) return [&io, signal] { return fmt::format("{}", io.value(signal)); };
-    problem = fmt::format("'{}' is neither a persistent nor a configured signal: only these can be watched", name);
+    problem =
+        fmt::format("'{}' is neither a persistent nor a configured signal: only these can be watched", name);
     return {};
 }
 
@@ -54,7 +55,8 @@ void BreakpointRequests::addTo(Handlers& handlers) {
 }
 
 Json BreakpointRequests::exceptionFilters() {
-    const char* const condition = "Only these: names of errors or their numbers, such as ERR_DIVZERO, ERR_ARGVALERR";
+    const char* const condition =
+        "Only these: names of errors or their numbers, such as ERR_DIVZERO, ERR_ARGVALERR";
     return Json::array({{{"filter", "unhandled"},
                          {"label", "Unhandled errors"},
                          {"description", "Errors that no ERROR handler takes"},
@@ -92,8 +94,8 @@ void BreakpointRequests::set(Wanted& wanted, bool atRoutine) {
     wanted.problem.clear();
     if (!context_.program || !context_.evaluator) return;
     rt::Breakpoints& breakpoints = context_.debugger().breakpoints();
-    const auto covers = [this, path = wanted.name, known = std::map<std::string, bool>()](
-                            const rt::RoutineDesc& routine) mutable {
+    const auto covers = [this, path = wanted.name,
+                         known = std::map<std::string, bool>()](const rt::RoutineDesc& routine) mutable {
         if (routine.file == nullptr || *routine.file == '\0') return false;
         const auto [found, isNew] = known.try_emplace(routine.file, false);
         if (isNew && context_.program)
@@ -101,9 +103,9 @@ void BreakpointRequests::set(Wanted& wanted, bool atRoutine) {
         return found->second;
     };
     rt::BreakCondition condition = conditionOf(wanted);
-    const rt::Breakpoint made = atRoutine
-                                    ? breakpoints.addRoutine(wanted.name, std::move(condition))
-                                    : breakpoints.addLine(wanted.name, wanted.line, covers, std::move(condition));
+    const rt::Breakpoint made =
+        atRoutine ? breakpoints.addRoutine(wanted.name, std::move(condition))
+                  : breakpoints.addLine(wanted.name, wanted.line, covers, std::move(condition));
     wanted.id = made.id;
     int32_t task = 0;
     for (const rt::RoutineEntry* entry : context_.controller().tables().routines())
@@ -123,11 +125,13 @@ void BreakpointRequests::setData(Wanted& wanted) {
     rt::BreakCondition condition = conditionOf(wanted);
     wanted.problem = wanted.rule->problem(0, nullptr);
     if (wanted.problem.empty())
-        wanted.id = context_.debugger().breakpoints().addData(wanted.name, std::move(reader), std::move(condition));
+        wanted.id =
+            context_.debugger().breakpoints().addData(wanted.name, std::move(reader), std::move(condition));
 }
 
 void BreakpointRequests::remove(const Wanted& wanted) {
-    if (wanted.id != 0 && context_.program) context_.program->controller().debugger().breakpoints().remove(wanted.id);
+    if (wanted.id != 0 && context_.program)
+        context_.program->controller().debugger().breakpoints().remove(wanted.id);
 }
 
 Json BreakpointRequests::setBreakpoints(const Arguments& arguments) {
@@ -173,8 +177,10 @@ Json BreakpointRequests::setFunctionBreakpoints(const Arguments& arguments) {
 }
 
 Json BreakpointRequests::dataBreakpointInfo(const Arguments& arguments) {
-    const std::string name = arguments.text("name");
     (void)context_.debugger();
+    std::string name = arguments.text("name");
+    if (arguments.has("variablesReference"))
+        name = context_.expressionOf(arguments.number("variablesReference"), name);
     std::string problem;
     const bool known = static_cast<bool>(readerOf(context_, name, problem));
     if (!known) return {{"dataId", nullptr}, {"description", problem}};
@@ -285,15 +291,15 @@ void BreakpointRequests::programMade() {
         setData(wanted);
         tell(wanted);
     }
-    context_.debugger().breakpoints().onChange([this](const rt::Breakpoint& breakpoint) {
-        changed(breakpoint);
-    });
+    context_.debugger().breakpoints().onChange(
+        [this](const rt::Breakpoint& breakpoint) { changed(breakpoint); });
 }
 
 Json BreakpointRequests::breakpointLocations(const Arguments& arguments) {
     const std::string path = context_.pathIn(arguments.object("source"));
     const uint32_t first = context_.facts.lineIn(arguments.number("line"));
-    const uint32_t last = arguments.has("endLine") ? context_.facts.lineIn(arguments.number("endLine")) : first;
+    const uint32_t last =
+        arguments.has("endLine") ? context_.facts.lineIn(arguments.number("endLine")) : first;
     std::map<std::pair<uint32_t, uint32_t>, const rt::StmtDesc*> places;
     for (const rt::RoutineEntry* entry : context_.controller().tables().routines()) {
         const rt::RoutineDesc& routine = *entry->desc;

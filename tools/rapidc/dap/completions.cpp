@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kMost = 500;
 
 bool isPartOfName(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
 }
 
 bool beginsWith(std::string_view name, std::string_view prefix) {
@@ -29,7 +30,8 @@ class Items {
   public:
     Items(std::string prefix, std::size_t start) : prefix_(std::move(prefix)), start_(start) {}
     void add(const std::string& name, const char* type, const std::string& detail = "") {
-        if (!beginsWith(name, prefix_) || list_.size() >= kMost || !known_.insert(rt::upperCase(name)).second) return;
+        if (!beginsWith(name, prefix_) || list_.size() >= kMost || !known_.insert(rt::upperCase(name)).second)
+            return;
         Json item{{"label", name}, {"type", type}, {"start", start_}, {"length", prefix_.size()}};
         if (!detail.empty()) item["detail"] = detail;
         list_.push_back(std::move(item));
@@ -93,7 +95,8 @@ Json completionsFor(Context& context, const Site& site, const std::string& text,
     if (end > begin)
         for (const rt::NativeEntry& entry : rt::nativeTable())
             items.add(std::string(entry.name), "function");
-    for (const char* word : {"AND", "DIV", "FALSE", "FOR", "IF", "MOD", "NOT", "OR", "RETURN", "TEST", "TRUE", "WHILE", "XOR"})
+    for (const char* word :
+         {"AND", "DIV", "FALSE", "FOR", "IF", "MOD", "NOT", "OR", "RETURN", "TEST", "TRUE", "WHILE", "XOR"})
         items.add(word, "keyword");
     return items.take();
 }

@@ -24,7 +24,8 @@ std::string pathOfUri(const std::string& uri) {
     if (uri.rfind(kScheme, 0) != 0) return uri;
     std::string path;
     for (std::size_t i = kScheme.size(); i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
+        const bool code =
+            uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
         path += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
         i += code ? 2 : 0;
     }

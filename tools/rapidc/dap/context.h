@@ -34,7 +34,9 @@ struct Context {
     std::unique_ptr<Program> program;     ///< null: nothing has been launched, or it has ended
     std::unique_ptr<Evaluator> evaluator; ///< null without debugging
     bool running = false;                 ///< the scheduler works
-    rt::Task* stopped = nullptr;          ///< the task whose stop the client has been told
+    rt::Task* stopped = nullptr;          ///< the task whose stop the client knows of
+    /// The expression of a child of a variablesReference; throws a Refusal.
+    std::function<std::string(int64_t reference, const std::string& name)> expressionOf = {};
 
     /// All of these throw a Refusal when the session is in another state.
     rt::Controller& controller() const;

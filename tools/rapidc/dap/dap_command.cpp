@@ -31,7 +31,8 @@ void readMessages(const std::shared_ptr<Input>& input) {
     for (;;) {
         std::string message;
         if (!input->channel.read(message, problem)) break;
-        input->inbox.post([input = input.get(), message = std::move(message)] { input->session->take(message); });
+        input->inbox.post(
+            [input = input.get(), message = std::move(message)] { input->session->take(message); });
     }
     if (problem == "the input ends inside a message") problem.clear(); // the client has died
     input->inbox.post([input = input.get(), problem] { input->session->inputEnded(problem); });
@@ -52,7 +53,8 @@ int serve() {
 } // namespace
 
 void addDapCommand(rt::CommandLine& line) {
-    line.addCommand("dap", "Debug adapter (DAP) on standard input and output, for editors", [] { return serve(); });
+    line.addCommand("dap", "Debug adapter (DAP) on standard input and output, for editors",
+                    [] { return serve(); });
 }
 
 } // namespace rapidc

@@ -32,8 +32,9 @@ class CallArguments {
   public:
     CallArguments(const rt::Controller& controller, const Site& site, const CompiledExpression& expression) {
         if (site.frame != nullptr && !expression.names.empty())
-            locals_ = const_cast<rt::Controller&>(controller).debugger().locals(
-                {rt::placeOf(site.frame), site.frame, false});
+            locals_ = const_cast<rt::Controller&>(controller)
+                          .debugger()
+                          .locals({rt::placeOf(site.frame), site.frame, false});
         list_.push_back({&error_, expression.entry->params[0].type, nullptr});
         if (expression.hasValue) {
             const rt::TypeDesc& type = *expression.entry->params[1].type;
@@ -41,8 +42,14 @@ class CallArguments {
             value_ = std::shared_ptr<std::max_align_t[]>(new std::max_align_t[words]());
             list_.push_back({value_.get(), &type, nullptr});
         }
-        for (const std::string& name : expression.names)
-            list_.push_back(local(name));
+        for (const std::string& name : expression.names) {
+            rt::LateArg argument = local(name);
+            // A switch is given when its byte is set.
+            if (expression.entry->params[list_.size()].type == nullptr && argument.data != nullptr &&
+                *static_cast<const char*>(argument.data) == 0)
+                argument.data = nullptr;
+            list_.push_back(argument);
+        }
     }
 
     const rt::LateArg* list() const { return list_.data(); }
@@ -180,9 +187,8 @@ rt::Status Evaluator::call(rt::Task& task, rt::Frame* caller, const Site& site,
 
 Evaluation Evaluator::now(const Site& site, const CompiledExpression& expression) const {
     Evaluation result;
-    (void)site.task->events().visitNow([&](rt::Task& task, rt::Frame* caller) {
-        return call(task, caller, site, expression, result);
-    });
+    (void)site.task->events().visitNow(
+        [&](rt::Task& task, rt::Frame* caller) { return call(task, caller, site, expression, result); });
     return result;
 }
 

@@ -43,7 +43,8 @@ void ExecutionRequests::addTo(Handlers& handlers) {
 
 rt::Task& ExecutionRequests::standing(const Arguments& arguments) {
     rt::Task& task = context_.task(arguments.number("threadId"));
-    if (context_.evaluator && context_.evaluator->isBusy()) throw Refusal("an expression is being evaluated: pause ends that");
+    if (context_.evaluator && context_.evaluator->isBusy())
+        throw Refusal("an expression is being evaluated: pause ends that");
     context_.requireStop();
     return task;
 }
@@ -122,6 +123,8 @@ Json ExecutionRequests::pause(const Arguments& arguments) {
         return nullptr;
     }
     if (!context_.running) throw Refusal("the program is not executing");
+    for (const auto& each : context_.controller().tasks())
+        if (each->events().isVisited()) each->events().endVisit(); // the condition of a breakpoint
     if (const std::string problem = debugger.pause(task); !problem.empty()) throw Refusal(problem);
     return nullptr;
 }
@@ -170,7 +173,8 @@ Json ExecutionRequests::goTo(const Arguments& arguments) {
     const Target target = found->second;
     rt::Debugger& debugger = context_.debugger();
     const rt::Frame* at = task.frame;
-    const bool here = at != nullptr && at->routine != nullptr && rt::sameName(at->routine->name, target.routine) &&
+    const bool here = at != nullptr && at->routine != nullptr &&
+                      rt::sameName(at->routine->name, target.routine) &&
                       rt::sameName(at->routine->module, target.module);
     order([&]() -> std::string {
         if (here) {
@@ -178,15 +182,17 @@ Json ExecutionRequests::goTo(const Arguments& arguments) {
             if (problem.empty()) debugger.noteStop(task, rt::StopReason::Pointer);
             return problem;
         }
-        const rt::RoutineEntry* routine = context_.controller().findRoutine(target.routine, target.module, task);
+        const rt::RoutineEntry* routine =
+            context_.controller().findRoutine(target.routine, target.module, task);
         uint32_t first = 0;
         if (routine != nullptr)
             for (uint32_t s = 0; s < routine->desc->statementCount && first == 0; ++s)
                 if (routine->desc->statements[s].canStart != 0) first = routine->desc->statements[s].line;
         if (first != target.line)
-            return fmt::format("line {} is in routine {}: the program pointer can be moved within the routine in "
-                               "progress, or to the first instruction of a procedure without parameters",
-                               target.line, target.routine);
+            return fmt::format(
+                "line {} is in routine {}: the program pointer can be moved within the routine in "
+                "progress, or to the first instruction of a procedure without parameters",
+                target.line, target.routine);
         return debugger.pointerToRoutine(task, target.module + ":" + target.routine);
     });
     return nullptr;

@@ -34,6 +34,7 @@ namespace {
 
 constexpr const char* kModule = "rapidc_expression";
 constexpr const char* kRoutine = "rapidc_evaluate";
+constexpr const char* kShown = "(expression)"; ///< its name in events
 constexpr const char* kResult = "rapidc_result";
 constexpr const char* kError = "rapidc_error";
 
@@ -76,8 +77,8 @@ struct ExpressionCompiler::Draft {
     const std::string& text;
     ExpressionKind kind;
     std::string resultType = "num";
-    std::vector<std::string> names;     ///< data of the routine that the text names, in order
-    const sema::Module* module = nullptr; ///< as it was checked
+    std::vector<std::string> names;        ///< data of the routine that the text names, in order
+    const sema::Module* module = nullptr;  ///< as it was checked
     const sema::Type* valueType = nullptr; ///< of the expression; null: not known
 
     bool isOrder() const { return kind == ExpressionKind::Orders; }
@@ -106,8 +107,7 @@ std::string moduleText(const sema::CheckedProgram& program, const std::set<std::
                        const ExpressionScope& scope, const std::string& text, bool isOrder,
                        const std::string& resultType, std::vector<std::string>& names) {
     const sema::Module* host = findModule(*program.tasks[static_cast<std::size_t>(scope.task)], scope.module);
-    const sema::RoutineSymbol* routine =
-        scope.routine.empty() ? nullptr : findRoutine(host, scope.routine);
+    const sema::RoutineSymbol* routine = scope.routine.empty() ? nullptr : findRoutine(host, scope.routine);
     std::string params = fmt::format("INOUT num {}", kError);
     if (!isOrder) params += fmt::format(", INOUT {} {}", resultType, kResult);
     std::string constants;
@@ -139,7 +139,8 @@ std::string moduleText(const sema::CheckedProgram& program, const std::set<std::
         out += text + "\n";
     else
         out += fmt::format("{} := \n{}\n;\n", kResult, text);
-    out += fmt::format("ERROR (LONG_JMP_ALL_ERR)\n{} := ERRNO;\nSkipWarn;\nRETURN;\nENDPROC\nENDMODULE\n", kError);
+    out += fmt::format("ERROR (LONG_JMP_ALL_ERR)\n{} := ERRNO;\nSkipWarn;\nRETURN;\nENDPROC\nENDMODULE\n",
+                       kError);
     return out;
 }
 
@@ -148,8 +149,8 @@ const syntax::RoutineDecl* onlyRoutine(const sema::Module& module) {
         !module.types.empty())
         return nullptr;
     const syntax::RoutineDecl* routine = module.routines.front()->routineDecl;
-    const bool plain = routine != nullptr && routine->errors.size() == 1 && !routine->hasUndo &&
-                       !routine->hasBackward;
+    const bool plain =
+        routine != nullptr && routine->errors.size() == 1 && !routine->hasUndo && !routine->hasBackward;
     return plain ? routine : nullptr;
 }
 
@@ -173,16 +174,34 @@ std::string harmfulCall(const sema::Module& module, const syntax::Node& node) {
         const auto found = module.facts->calls.find(&node);
         const sema::RoutineSymbol* routine =
             found != module.facts->calls.end() ? found->second.routine : nullptr;
-        const bool harmless = routine != nullptr && routine->predefined &&
-                              (routine->effects == sema::Effects::None ||
-                               routine->effects == sema::Effects::Const ||
-                               routine->effects == sema::Effects::Pure ||
-                               routine->effects == sema::Effects::Reads);
+        const bool harmless =
+            routine != nullptr && routine->predefined &&
+            (routine->effects == sema::Effects::None || routine->effects == sema::Effects::Const ||
+             routine->effects == sema::Effects::Pure || routine->effects == sema::Effects::Reads);
         if (!harmless) return routine != nullptr ? routine->name : "a routine";
     }
     std::string found;
     syntax::forEachChild(node, [&](const syntax::Node& child) {
         if (found.empty()) found = harmfulCall(module, child);
+    });
+    return found;
+}
+
+} // namespace
+
+namespace {
+
+/// A movement instruction in the text; "" when there is none.
+std::string movement(const sema::Module& module, const syntax::Node& node) {
+    if (node.kind == syntax::NodeKind::CallStmt) {
+        const auto found = module.facts->calls.find(&node);
+        const sema::RoutineSymbol* routine =
+            found != module.facts->calls.end() ? found->second.routine : nullptr;
+        if (routine != nullptr && routine->effects == sema::Effects::Motion) return routine->name;
+    }
+    std::string found;
+    syntax::forEachChild(node, [&](const syntax::Node& child) {
+        if (found.empty()) found = movement(module, child);
     });
     return found;
 }
@@ -211,8 +230,9 @@ void ExpressionCompiler::openSession() {
     std::vector<sema::TaskInput> tasks;
     for (std::size_t i = 0; i < compilation_.program->tasks.size(); ++i) {
         const sema::Task& checked = *compilation_.program->tasks[i];
-        const auto found = std::find_if(compilation_.tasks.begin(), compilation_.tasks.end(),
-                                        [&](const sema::TaskInput& input) { return input.name == checked.name; });
+        const auto found =
+            std::find_if(compilation_.tasks.begin(), compilation_.tasks.end(),
+                         [&](const sema::TaskInput& input) { return input.name == checked.name; });
         sema::TaskInput& task = tasks.emplace_back();
         task.name = checked.name;
         if (found != compilation_.tasks.end()) task = *found;
@@ -224,16 +244,17 @@ void ExpressionCompiler::openSession() {
         }
         task.files.push_back(std::make_shared<const rapid::SourceFile>(pathOf(i), emptyModule()));
     }
-    session_ = std::make_unique<sema::Session>(compilation_.options);
+    sema::CheckOptions options = compilation_.options;
+    options.configurationKnown = true; // the program runs: no signal is assumed any more
+    session_ = std::make_unique<sema::Session>(options);
     session_->open(std::move(tasks));
 }
 
 /// Whether the text means something; then the type of its value is known.
 bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
     const auto task = static_cast<std::size_t>(draft.scope.task);
-    const std::string text =
-        moduleText(session_->program(), namesIn(draft.text), draft.scope, draft.text, draft.isOrder(),
-                   draft.resultType, draft.names);
+    const std::string text = moduleText(session_->program(), namesIn(draft.text), draft.scope, draft.text,
+                                        draft.isOrder(), draft.resultType, draft.names);
     session_->setGuest(kModule, draft.scope.module);
     session_->change(std::make_shared<const rapid::SourceFile>(pathOf(task), text));
     problem = problemOf(session_->diagnostics(), pathOf(task));
@@ -251,6 +272,10 @@ bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
 }
 
 bool ExpressionCompiler::judge(const Draft& draft, std::string& problem) const {
+    if (const std::string move = movement(*draft.module, *onlyRoutine(*draft.module)); !move.empty()) {
+        problem = fmt::format("'{}' moves the robot, which only the program itself can do", move);
+        return false;
+    }
     if (draft.kind != ExpressionKind::Harmless) return true;
     const std::string call = harmfulCall(*draft.module, *valueOf(*onlyRoutine(*draft.module)));
     if (call.empty()) return true;
@@ -299,9 +324,11 @@ bool ExpressionCompiler::generate(const Draft& draft, CompiledExpression& out, s
         return false;
     }
     // What it calls by name may be LOCAL in the module that it stands in.
-    if (!draft.scope.module.empty())
-        for (ir::Routine& routine : made.routines)
-            if (routine.moduleName == kModule) routine.moduleName = draft.scope.module;
+    for (ir::Routine& routine : made.routines) {
+        if (routine.moduleName != kModule) continue;
+        if (!draft.scope.module.empty()) routine.moduleName = draft.scope.module;
+        routine.displayName = kShown;
+    }
     ImportedData data;
     for (const ir::Global& global : made.globals)
         if (global.kind == ir::GlobalKind::External) {
@@ -343,7 +370,7 @@ bool ExpressionCompiler::map(const rt::UnitImage& image, const ImportedData& dat
         return false;
     }
     for (uint32_t i = 0; i < program.routineCount; ++i)
-        if (rt::sameName(program.routines[i].name, kRoutine)) out.entry = &program.routines[i];
+        if (rt::sameName(program.routines[i].name, kShown)) out.entry = &program.routines[i];
     if (out.entry == nullptr || out.entry->late == nullptr) problem = "the expression cannot be called";
     return problem.empty();
 }

@@ -9,7 +9,8 @@ namespace rapidc::dap {
 namespace {
 
 bool isLetter(char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
 }
 
 bool isPart(char c) {

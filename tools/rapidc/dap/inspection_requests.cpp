@@ -35,6 +35,12 @@ std::string completed(const std::string& text) {
 
 } // namespace
 
+InspectionRequests::InspectionRequests(Context& context) : context_(context), variables_(context) {
+    context.expressionOf = [this](int64_t reference, const std::string& name) {
+        return variables_.expressionOf(reference, name);
+    };
+}
+
 void InspectionRequests::addTo(Handlers& handlers) {
     const auto add = [&](const char* name, Json (InspectionRequests::*handler)(const Arguments&)) {
         handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
@@ -68,6 +74,10 @@ void InspectionRequests::forget() {
 InspectionRequests::FrameList& InspectionRequests::framesOf(rt::Task& task) {
     const auto [found, isNew] = frames_.try_emplace(&task);
     if (isNew) {
+        if (context_.evaluator->isBusy()) {
+            frames_.erase(found);
+            throw Refusal("an expression is being evaluated");
+        }
         found->second.frames = context_.debugger().frames(task);
         found->second.first = nextFrame_;
         nextFrame_ += static_cast<int64_t>(found->second.frames.size());
@@ -143,16 +153,17 @@ Json InspectionRequests::exceptionInfo(const Arguments& arguments) {
     const rt::Task& task = context_.task(arguments.number("threadId"));
     context_.requireStop();
     if (error_.task != &task) throw Refusal("the task was not stopped by an error");
-    const std::string name = error_.name.empty() ? (error_.number != 0 ? std::to_string(error_.number) : "error")
-                                                 : error_.name;
+    const std::string name =
+        error_.name.empty() ? (error_.number != 0 ? std::to_string(error_.number) : "error") : error_.name;
     std::string chain;
     for (const rt::SourcePlace& place : task.callChain())
         chain += fmt::format("{} {}:{}\n", place.routine, place.module, place.line);
-    return {{"exceptionId", name},
-            {"description", error_.text},
-            {"breakMode", error_.handled ? "always" : "unhandled"},
-            {"details",
-             {{"message", error_.text}, {"typeName", name}, {"evaluateName", "ERRNO"}, {"stackTrace", chain}}}};
+    return {
+        {"exceptionId", name},
+        {"description", error_.text},
+        {"breakMode", error_.handled ? "always" : "unhandled"},
+        {"details",
+         {{"message", error_.text}, {"typeName", name}, {"evaluateName", "ERRNO"}, {"stackTrace", chain}}}};
 }
 
 // ---- Expressions ---------------------------------------------------------------------------------------------------
@@ -173,8 +184,7 @@ std::optional<Json> InspectionRequests::evaluate(const Request& request, const A
     const Site at = site(arguments);
     if (!context_.debugger().standsStill()) {
         const Evaluation found = context_.evaluator->find(at, text);
-        if (!found.hasValue)
-            throw Refusal("the program is executing: pause it to evaluate more than a name");
+        if (!found.hasValue) throw Refusal("the program is executing: pause it to evaluate more than a name");
         return resultOf(found, text);
     }
     return evaluateIn(request, at, text, context);

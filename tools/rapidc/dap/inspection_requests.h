@@ -22,7 +22,7 @@ struct StopError {
 
 class InspectionRequests {
   public:
-    explicit InspectionRequests(Context& context) : context_(context), variables_(context) {}
+    explicit InspectionRequests(Context& context);
     void addTo(Handlers& handlers);
 
     /// The program goes on: frames and references mean nothing any more.

@@ -116,10 +116,8 @@ void Client::send(Json message) {
 }
 
 void Client::answer(const Request& request, Json body) {
-    Json message{{"type", "response"},
-                 {"request_seq", request.seq},
-                 {"command", request.command},
-                 {"success", true}};
+    Json message{
+        {"type", "response"}, {"request_seq", request.seq}, {"command", request.command}, {"success", true}};
     if (!body.is_null()) message["body"] = std::move(body);
     send(std::move(message));
 }

@@ -33,11 +33,12 @@ const char* descriptionOf(rt::StopReason reason) {
 
 Session::Session(protocol::Channel& channel, rt::Inbox& inbox, StrayOutput& stray)
     : client_(channel), stray_(stray), context_{client_, inbox, {}, nullptr, nullptr, false, nullptr},
-      breakpoints_(context_), inspection_(context_), execution_(context_, [this] {
-          inspection_.forget();
-          execution_.forgetTargets();
-          context_.stopped = nullptr;
-      }),
+      breakpoints_(context_), inspection_(context_), execution_(context_,
+                                                                [this] {
+                                                                    inspection_.forget();
+                                                                    execution_.forgetTargets();
+                                                                    context_.stopped = nullptr;
+                                                                }),
       sources_(context_) {
     breakpoints_.addTo(handlers_);
     inspection_.addTo(handlers_);
@@ -90,6 +91,10 @@ int Session::run() {
 
 void Session::take(const std::string& message) {
     if (finished_) return;
+    if (startWanted_ && !context_.running) { // comes when the program runs
+        early_.push_back(message);
+        return;
+    }
     const Json json = rapid::config::tryParseJson(message);
     Request request;
     if (!json.is_object()) {
@@ -105,7 +110,8 @@ void Session::take(const std::string& message) {
     request.command = text("command");
     if (const auto seq = json.find("seq"); seq != json.end() && seq->is_number_integer())
         request.seq = seq->get<int64_t>();
-    if (const auto arguments = json.find("arguments"); arguments != json.end()) request.arguments = *arguments;
+    if (const auto arguments = json.find("arguments"); arguments != json.end())
+        request.arguments = *arguments;
     if (type != "request" || request.command.empty()) {
         client_.refuse(request, "the message is no request");
         return;
@@ -125,7 +131,7 @@ void Session::handle(const Request& request) {
         if (answer) client_.answer(request, std::move(*answer));
     } catch (const Refusal& refusal) {
         client_.refuse(request, refusal.what());
-    } catch (const nlohmann::json::exception& problem) {
+    } catch (const std::exception& problem) {
         client_.refuse(request, problem.what());
     }
     showStray();
@@ -148,16 +154,32 @@ void Session::showStray() {
 
 Json Session::capabilities() {
     Json json = Json::object();
-    for (const char* name :
-         {"supportsConfigurationDoneRequest", "supportsFunctionBreakpoints", "supportsConditionalBreakpoints",
-          "supportsHitConditionalBreakpoints", "supportsEvaluateForHovers", "supportsStepBack",
-          "supportsSetVariable", "supportsGotoTargetsRequest", "supportsCompletionsRequest",
-          "supportsModulesRequest", "supportsRestartRequest", "supportsExceptionOptions",
-          "supportsExceptionInfoRequest", "supportTerminateDebuggee", "supportsDelayedStackTraceLoading",
-          "supportsLoadedSourcesRequest", "supportsLogPoints", "supportsSetExpression",
-          "supportsTerminateRequest", "supportsDataBreakpoints", "supportsBreakpointLocationsRequest",
-          "supportsClipboardContext", "supportsSteppingGranularity", "supportsExceptionFilterOptions",
-          "supportsSingleThreadExecutionRequests", "supportsCancelRequest"})
+    for (const char* name : {"supportsConfigurationDoneRequest",
+                             "supportsFunctionBreakpoints",
+                             "supportsConditionalBreakpoints",
+                             "supportsHitConditionalBreakpoints",
+                             "supportsEvaluateForHovers",
+                             "supportsStepBack",
+                             "supportsSetVariable",
+                             "supportsGotoTargetsRequest",
+                             "supportsCompletionsRequest",
+                             "supportsModulesRequest",
+                             "supportsRestartRequest",
+                             "supportsExceptionOptions",
+                             "supportsExceptionInfoRequest",
+                             "supportTerminateDebuggee",
+                             "supportsDelayedStackTraceLoading",
+                             "supportsLoadedSourcesRequest",
+                             "supportsLogPoints",
+                             "supportsSetExpression",
+                             "supportsTerminateRequest",
+                             "supportsDataBreakpoints",
+                             "supportsBreakpointLocationsRequest",
+                             "supportsClipboardContext",
+                             "supportsSteppingGranularity",
+                             "supportsExceptionFilterOptions",
+                             "supportsSingleThreadExecutionRequests",
+                             "supportsCancelRequest"})
         json[name] = true;
     json.erase("supportsExceptionOptions");
     json["completionTriggerCharacters"] = Json::array({"."});
@@ -170,7 +192,8 @@ Json Session::initialize(const Arguments& arguments) {
     (void)arguments.text("clientID", "");
     (void)arguments.text("adapterID", "");
     const std::string format = arguments.text("pathFormat", "path");
-    if (format != "path" && format != "uri") throw Refusal(fmt::format("there is no path format '{}'", format));
+    if (format != "path" && format != "uri")
+        throw Refusal(fmt::format("there is no path format '{}'", format));
     context_.facts.linesStartAt1 = arguments.flag("linesStartAt1", true);
     context_.facts.columnsStartAt1 = arguments.flag("columnsStartAt1", true);
     context_.facts.usesUris = format == "uri";
@@ -198,7 +221,8 @@ void Session::makeProgram(const LaunchArguments& arguments) {
         std::string told;
         stray_.take([&](std::string_view line) {
             client_.output("stderr", line);
-            if (!rt::trimmed(line).empty()) told += (told.empty() ? "" : "; ") + std::string(rt::trimmed(line));
+            if (!rt::trimmed(line).empty())
+                told += (told.empty() ? "" : "; ") + std::string(rt::trimmed(line));
         });
         throw Refusal(told.empty() ? refusal.what() : fmt::format("{}: {}", refusal.what(), told));
     }
@@ -293,6 +317,8 @@ void Session::carryOutRestart() {
 
 void Session::runProgram() {
     context_.running = true;
+    for (const std::string& message : std::exchange(early_, {}))
+        take(message);
     const int status = static_cast<int>(context_.controller().run());
     context_.running = false;
     inspection_.refuseWaiting();
@@ -340,6 +366,13 @@ std::string Session::reasonOf(rt::StopReason reason) const {
 }
 
 void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason reason) {
+    // The program pointer at another routine: that is entered, so that there is a place to show.
+    if (reason == rt::StopReason::Pointer && debugger.frames(task).empty() &&
+        debugger.enterRoutine(task).empty()) {
+        entering_ = true;
+        return;
+    }
+    if (std::exchange(entering_, false) && reason == rt::StopReason::Step) reason = rt::StopReason::Pointer;
     inspection_.forget();
     execution_.forgetTargets();
     context_.stopped = &task;
@@ -360,7 +393,8 @@ void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason rea
         StopError error{&task, task.errorNumber, reason == rt::StopReason::Raised,
                         context_.controller().log().errorName(task.errorNumber), task.errorText()};
         body["text"] = error.text;
-        if (!error.name.empty()) body["description"] = fmt::format("{}: {}", descriptionOf(reason), error.name);
+        if (!error.name.empty())
+            body["description"] = fmt::format("{}: {}", descriptionOf(reason), error.name);
         inspection_.setError(std::move(error));
     }
     client_.event("stopped", std::move(body));
@@ -385,8 +419,8 @@ void Session::showRobot(rt::Task& task) {
     if (pointer.valid && pointer.routine != nullptr) {
         const rt::StmtDesc* statement = rt::statementOf(*pointer.routine, pointer.statement);
         if (statement != nullptr) {
-            Json place = context_.place({pointer.routine->module, pointer.routine->name, pointer.routine->file,
-                                         statement->line, statement->column});
+            Json place = context_.place({pointer.routine->module, pointer.routine->name,
+                                         pointer.routine->file, statement->line, statement->column});
             body["motionPointer"] = std::move(place);
         }
     }

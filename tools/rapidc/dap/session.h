@@ -73,7 +73,9 @@ class Session final : public rt::DebugClient {
     std::optional<Request> disconnect_;
     bool initialized_ = false, configured_ = false;
     bool startWanted_ = false; ///< the program is ready to run
+    bool entering_ = false;    ///< the program pointer was moved to a routine that is being entered
     bool finished_ = false;
+    std::vector<std::string> early_; ///< messages that came before the run had begun
     int status_ = 0;
 };
 

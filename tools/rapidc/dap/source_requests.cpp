@@ -74,7 +74,8 @@ Json SourceRequests::modules(const Arguments& arguments) {
         const rt::LoadedModule& module = modules[i];
         const auto& tasks = context_.controller().tasks();
         const bool owned = module.task >= 0 && module.task < static_cast<int32_t>(tasks.size());
-        Json json{{"id", owned ? fmt::format("{}/{}", tasks[static_cast<std::size_t>(module.task)]->name(), module.name)
+        Json json{{"id", owned ? fmt::format("{}/{}", tasks[static_cast<std::size_t>(module.task)]->name(),
+                                             module.name)
                                : module.name},
                   {"name", module.name},
                   {"isUserCode", true}};

@@ -1,8 +1,8 @@
 #include "tools/rapidc/dap/stray_output.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/types.h>
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>

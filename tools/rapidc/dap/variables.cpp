@@ -3,6 +3,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/value/value_text.h"
+#include "tools/rapidc/dap/routine_constants.h"
 
 #include <algorithm>
 #include <deque>
@@ -16,7 +17,8 @@ constexpr uint64_t kMostChildren = 100'000; ///< in one answer, when the client 
 
 /// "list" and 2: "list{2}"; "list{2,*}" and 3: "list{2,3}".
 std::string elementExpression(const std::string& array, int32_t index, std::size_t dimensions) {
-    const std::size_t star = array.empty() || array.back() != '}' ? std::string::npos : array.find(",*", array.rfind('{'));
+    const std::size_t star =
+        array.empty() || array.back() != '}' ? std::string::npos : array.find(",*", array.rfind('{'));
     std::string text;
     if (star != std::string::npos)
         text = array.substr(0, star) + fmt::format(",{}", index);
@@ -42,8 +44,8 @@ int64_t Variables::add(Node node) {
 const Variables::Node& Variables::find(int64_t reference) const {
     const auto found = nodes_.find(reference);
     if (found == nodes_.end())
-        throw Refusal(fmt::format("there is no variablesReference {}; they are good until the program goes on",
-                                  reference));
+        throw Refusal(fmt::format(
+            "there is no variablesReference {}; they are good until the program goes on", reference));
     return found->second;
 }
 
@@ -78,6 +80,10 @@ std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
         for (rt::DebugVariable& variable : debugger.locals({rt::placeOf(node.frame), node.frame, false}))
             if (variable.isParameter == (node.scope == Scope::Parameters))
                 list.push_back({variable.name, variable.name, std::move(variable)});
+        if (node.scope == Scope::Locals)
+            for (ConstantText& constant :
+                 constantsOf(context_.program->compilation(), node.task->index(), *node.frame->routine))
+                list.push_back({constant.name, constant.name, {}, constant.value, constant.type});
         return list;
     }
     const rt::ProgramTables& tables = context_.controller().tables();
@@ -93,7 +99,8 @@ std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
                             : node.scope == Scope::Module    ? !persistent && own
                                                              : !persistent && !own && !local;
         if (!wanted) continue;
-        const std::string expression = local && !own ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
+        const std::string expression =
+            local && !own ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
         list.push_back({desc->name, expression, rt::dataOf(*desc)});
     }
     return list;
@@ -118,9 +125,10 @@ std::vector<Variables::Child> Variables::childrenOf(const Node& node, uint64_t s
         const uint64_t end = std::min<uint64_t>(start + count, static_cast<uint64_t>(std::max(dims[0], 0)));
         for (uint64_t i = start; i < end; ++i) {
             const auto index = static_cast<int32_t>(i + 1);
-            list.push_back({fmt::format("{{{}}}", index),
-                            node.expression.empty() ? "" : elementExpression(node.expression, index, dims.size()),
-                            rowOf(value, index)});
+            list.push_back(
+                {fmt::format("{{{}}}", index),
+                 node.expression.empty() ? "" : elementExpression(node.expression, index, dims.size()),
+                 rowOf(value, index)});
         }
         return list;
     }
@@ -130,18 +138,18 @@ std::vector<Variables::Child> Variables::childrenOf(const Node& node, uint64_t s
         part.type = type.fields[i];
         part.data = static_cast<char*>(value.data) + type.offsets[i];
         part.name = type.fieldNames[i];
-        list.push_back({type.fieldNames[i],
-                        node.expression.empty() ? "" : fmt::format("{}.{}", node.expression, type.fieldNames[i]),
-                        std::move(part)});
+        list.push_back(
+            {type.fieldNames[i],
+             node.expression.empty() ? "" : fmt::format("{}.{}", node.expression, type.fieldNames[i]),
+             std::move(part)});
     }
     return list;
 }
 
 Json Variables::describe(const rt::DebugVariable& variable, const std::string& expression,
                          std::shared_ptr<void> storage) {
-    Json json{{"value", rt::valueText(variable)},
-              {"type", rt::typeName(variable)},
-              {"variablesReference", 0}};
+    Json json{
+        {"value", rt::valueText(variable)}, {"type", rt::typeName(variable)}, {"variablesReference", 0}};
     if (!hasChildren(variable)) return json;
     Node node;
     node.value = variable;
@@ -157,12 +165,15 @@ Json Variables::describe(const rt::DebugVariable& variable, const std::string& e
 }
 
 Json Variables::entry(const Child& child, const std::shared_ptr<void>& storage) {
-    Json json = describe(child.value, child.expression, storage);
+    Json json = child.text.empty()
+                    ? describe(child.value, child.expression, storage)
+                    : Json{{"value", child.text}, {"type", child.type}, {"variablesReference", 0}};
     json["name"] = child.name;
     if (!child.expression.empty()) json["evaluateName"] = child.expression;
     Json attributes = Json::array();
-    if (child.value.isConstant) attributes.push_back("constant");
-    if (child.value.isConstant || child.value.data == nullptr) attributes.push_back("readOnly");
+    const bool constant = child.value.isConstant || !child.text.empty();
+    if (constant) attributes.push_back("constant");
+    if (constant || child.value.data == nullptr) attributes.push_back("readOnly");
     if (!attributes.empty()) json["presentationHint"] = {{"attributes", std::move(attributes)}};
     return json;
 }
@@ -186,7 +197,8 @@ Json Variables::children(const Arguments& arguments) {
             all = childrenOf(node, first, most);
         } else {
             all = node.scope == Scope::None ? childrenOf(node, 0, 0) : scopeOf(node);
-            all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(first, all.size())));
+            all.erase(all.begin(),
+                      all.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(first, all.size())));
             if (all.size() > most) all.resize(most);
         }
         for (const Child& child : all)
@@ -196,7 +208,8 @@ Json Variables::children(const Arguments& arguments) {
 }
 
 void Variables::assign(const rt::DebugVariable& variable, const std::string& text) {
-    const std::vector<int32_t> dims = variable.data != nullptr ? dimensionsOf(variable) : std::vector<int32_t>();
+    const std::vector<int32_t> dims =
+        variable.data != nullptr ? dimensionsOf(variable) : std::vector<int32_t>();
     if (variable.isConstant || dims.empty()) {
         const std::string problem = rt::assignText(variable, rt::trimmed(text));
         if (!problem.empty()) throw Refusal(problem);
@@ -226,14 +239,24 @@ Json Variables::set(const Arguments& arguments) {
     const Node node = find(arguments.number("variablesReference"));
     const std::string name = arguments.text("name");
     const std::string text = arguments.text("value");
+    const Child child = findChild(node, name);
+    if (node.storage) throw Refusal("the value of an expression cannot be changed");
+    if (!child.text.empty()) throw Refusal(fmt::format("'{}' is a constant", child.name));
+    assign(child.value, text);
+    return describe(child.value, child.expression);
+}
+
+Variables::Child Variables::findChild(const Node& node, const std::string& name) const {
     const std::vector<Child> all =
-        node.scope == Scope::None ? childrenOf(node, 0, kMostChildren) : scopeOf(node);
+        node.scope == Scope::None ? childrenOf(node, 0, UINT32_MAX) : scopeOf(node);
     const auto same = [&](const Child& child) { return rt::sameName(child.name, name); };
     const auto found = std::find_if(all.begin(), all.end(), same);
     if (found == all.end()) throw Refusal(fmt::format("there is no variable '{}'", name));
-    if (node.storage) throw Refusal("the value of an expression cannot be changed");
-    assign(found->value, text);
-    return describe(found->value, found->expression);
+    return *found;
+}
+
+std::string Variables::expressionOf(int64_t reference, const std::string& name) const {
+    return findChild(find(reference), name).expression;
 }
 
 } // namespace rapidc::dap

@@ -22,6 +22,8 @@ class Variables {
     Json describe(const rt::DebugVariable& variable, const std::string& expression,
                   std::shared_ptr<void> storage = {});
     Json set(const Arguments& arguments);
+    /// Under which a child can be found again. Throws a Refusal.
+    std::string expressionOf(int64_t reference, const std::string& name) const;
     /// A value as RAPID text or an expression is assigned. Throws a Refusal.
     static void assign(const rt::DebugVariable& variable, const std::string& text);
     void forget() { nodes_.clear(); }
@@ -41,7 +43,9 @@ class Variables {
     struct Child {
         std::string name, expression;
         rt::DebugVariable value;
+        std::string text = {}, type = {}; ///< constants of a routine, which lie nowhere: instead of `value`
     };
+    Child findChild(const Node& node, const std::string& name) const;
 
     int64_t add(Node node);
     const Node& find(int64_t reference) const;
