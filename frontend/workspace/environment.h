@@ -19,6 +19,13 @@ struct ConveyorNames {
     std::vector<sema::SignalInfo> signals;
 };
 
+/// A robtarget in numbers: mm, a unit quaternion, quarter revolutions.
+struct TargetNumbers {
+    double position[3] = {}, rotation[4] = {1, 0, 0, 0};
+    int configuration[4] = {};
+    double eaxA = 9e9; ///< arm angle of seven axes
+};
+
 class Environment {
   public:
     Environment() = default;
@@ -32,6 +39,9 @@ class Environment {
     virtual std::vector<std::string_view> declaredOnly() const = 0;
     /// Why a robot model cannot be used, for people; empty when it is known.
     virtual std::string robotProblem(const std::string& model) const = 0;
+    /// Whether a robot at the origin of the world reaches a target with its flange (tool0, wobj0), for people: the angles of its
+    /// axes, or why it does not. Empty when the model is not known.
+    virtual std::string reach(const std::string& model, const TargetNumbers& target) const = 0;
     /// Adds what a controller that starts with these files would find wrong with signals and cross connections.
     virtual void judgeSignals(std::vector<config::CfgProblem>& problems,
                               const std::vector<std::string>& names,

@@ -16,6 +16,7 @@ class PlainEnvironment : public workspace::Environment {
     }
     std::vector<std::string_view> declaredOnly() const override { return {}; }
     std::string robotProblem(const std::string&) const override { return {}; }
+    std::string reach(const std::string&, const workspace::TargetNumbers&) const override { return {}; }
     void judgeSignals(std::vector<config::CfgProblem>&, const std::vector<std::string>&,
                       const std::vector<std::string>&) const override {}
     bool isConveyor(std::string_view) const override { return false; }

@@ -327,6 +327,14 @@ class Folders(LspCase):
         other.settle()
         self.assertEqual(other.asked, [])
 
+    def test_progress_of_the_first_load(self):
+        client = self.connect()
+        client.initialize([self.work()], {**CAPABILITIES, "window": {"workDoneProgress": True}})
+        client.published(client.open(self.write("m.modx", RIGHT), RIGHT), 1)
+        self.assertEqual([m["method"] for m in client.asked], ["window/workDoneProgress/create"])
+        kinds = [m["params"]["value"]["kind"] for m in client.notifications if m["method"] == "$/progress"]
+        self.assertEqual(kinds, ["begin", "end"])
+
     def test_configuration_files(self):
         self.write("EIO.cfg", 'EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n      -Name "doGrip" -SignalType "XX"\n')
         client = self.connect()

@@ -140,6 +140,19 @@ class Hover(Language):
         self.assertIn("10", self.text("limit"))
         self.assertIn("600", self.text("home", 2))
 
+    def test_reach_of_the_robot(self):
+        path = self.write("MOC.cfg", 'MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n      -name "ROB_1" -use_robot_type "ROB1_120_0.58_3" \n')
+        self.client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": uri(path), "type": 1}]})
+        text = TEXT.replace("[600,0,700],[1,0,0,0]", "[374,0,630],[0.7071068,0,0.7071068,0]")
+        self.client.change(self.document, 2, text)
+        near = self.client.request("textDocument/hover", at(self.document, text, "home", 2))["contents"]["value"]
+        self.assertIn("axis 1 at 0.0", near)
+        text = text.replace("[374,0,630]", "[9000,0,630]")
+        self.client.change(self.document, 3, text)
+        far = self.client.request("textDocument/hover", at(self.document, text, "home", 2))["contents"]["value"]
+        self.assertIn("IRB 120", far)
+        self.assertNotIn("axis 1 at", far)
+
     def test_nothing(self):
         self.assertIsNone(self.ask("hover", "Counts"))
         self.assertIsNone(self.client.request("textDocument/hover", {"textDocument": {"uri": self.document},

@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <fmt/format.h>
+#include <utility>
 
 namespace lsp {
 
@@ -123,9 +124,23 @@ void Server::notification(const std::string& method, const Json& params) {
     }
 }
 
+namespace {
+constexpr const char* kLoading = "rapidc-loading"; ///< token of the progress
+} // namespace
+
 void Server::begin() {
     afterInitialized(state_);
     state_.dirty = true;
+    if (state_.workspace.folders().empty() || !state_.can("window.workDoneProgress")) return;
+    state_.request("window/workDoneProgress/create", {{"token", kLoading}}, nullptr);
+    state_.notify("$/progress",
+                  {{"token", kLoading}, {"value", {{"kind", "begin"}, {"title", "Reading RAPID modules"}}}});
+    showsProgress_ = true;
+}
+
+void Server::endProgress() {
+    if (!std::exchange(showsProgress_, false)) return;
+    state_.notify("$/progress", {{"token", kLoading}, {"value", {{"kind", "end"}}}});
 }
 
 bool Server::isBehind() const {
@@ -138,6 +153,7 @@ void Server::catchUp(bool whole, const std::function<bool()>& interrupted) {
     state_.workspace.setInterrupted(interrupted);
     try {
         if (state_.workspace.bringUpToDate()) {
+            endProgress();
             const bool all = publisher_.publishQuickly(state_) || whole;
             if (all && (!interrupted || !interrupted())) publisher_.publish(state_);
         }

@@ -43,6 +43,7 @@ class Server {
     Json answer(const std::string& method, const Json& params);
     void notification(const std::string& method, const Json& params);
     void begin();
+    void endProgress();
     void refuse(const Json& id, int code, const std::string& message) {
         send_(errorResponse(id, code, message));
     }
@@ -52,6 +53,7 @@ class Server {
     Publisher publisher_;
     Phase phase_ = Phase::New;
     bool wasShutDown_ = false;
+    bool showsProgress_ = false; ///< the client shows that folders are being read
     std::function<bool(const Json& id)> cancelled_;
 };
 

@@ -3,10 +3,13 @@
 #include "runtime/host/conveyors.h"
 #include "runtime/io/cfg_parser.h"
 #include "runtime/io/io_system.h"
+#include "runtime/robot/kinematics.h"
 #include "runtime/robot/robot_model.h"
 #include "runtime/sched/scheduler.h"
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
+
+#include <fmt/format.h>
 
 namespace rapidc {
 
@@ -33,6 +36,25 @@ class ControllerEnvironment final : public rapid::workspace::Environment {
     std::string robotProblem(const std::string& model) const override {
         const auto loaded = robot::loadRobotModel(model);
         return loaded ? std::string() : loaded.error().message;
+    }
+
+    std::string reach(const std::string& model,
+                      const rapid::workspace::TargetNumbers& target) const override {
+        const auto loaded = robot::loadRobotModel(model);
+        if (!loaded) return {};
+        const robot::Kinematics arm(*loaded);
+        const auto& p = target.position;
+        const auto& r = target.rotation;
+        const auto& c = target.configuration;
+        const bool armAngle = arm.hasArmAngle() && target.eaxA < 9e8;
+        const auto joints = arm.inverse({{p[0], p[1], p[2]}, {r[0], r[1], r[2], r[3]}},
+                                        {c[0], c[1], c[2], c[3]}, robot::Joints::zeros(arm.jointCount()),
+                                        armAngle ? target.eaxA : robot::kSeedArmAngle);
+        if (!joints) return fmt::format("{} (tool0, wobj0): {}", loaded->name, joints.error().message());
+        std::string text = fmt::format("{} (tool0, wobj0) reaches it with", loaded->name);
+        for (size_t i = 0; i < arm.jointCount(); ++i)
+            text += fmt::format("{} axis {} at {:.1f}", i == 0 ? "" : ",", arm.axisNumber(i), (*joints)[i]);
+        return text;
     }
 
     void judgeSignals(std::vector<rapid::config::CfgProblem>& problems, const std::vector<std::string>& names,

@@ -22,6 +22,8 @@ function makeClient(context: vscode.ExtensionContext): LanguageClient {
         documentSelector: [{ language: "rapid" }, { language: "abb-cfg" }, { pattern: "**/*.pgf" }],
         initializationOptions: settings(),
         synchronize: { configurationSection: "rapidc", fileEvents: watcher },
+        // The server publishes diagnostics as well as answering requests for them: the client would show both.
+        middleware: { provideDiagnostics: () => undefined, provideWorkspaceDiagnostics: () => undefined },
     };
     return new LanguageClient("rapidc", "RAPID", server, options);
 }
