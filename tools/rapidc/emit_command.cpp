@@ -113,10 +113,9 @@ int emit(EmitSettings& settings) {
         return compilation->sink.hasErrors() ? static_cast<int>(rt::ExitStatus::BadProgram) : written;
     }
     ir::Module module;
-    const bool ok =
-        !compilation->sink.hasErrors() &&
-        (settings.as == "symbols" ||
-         lowerToIr(*compilation, "program", settings.stepping, module, SIZE_MAX, keptRoutines(*compilation)));
+    const bool ok = !compilation->sink.hasErrors() &&
+                    (settings.as == "symbols" || lowerToIr(*compilation, "program", settings.stepping, module,
+                                                           SIZE_MAX, keptRoutines(*compilation)));
     printDiagnostics(*compilation);
     if (!ok) return static_cast<int>(rt::ExitStatus::BadProgram);
     if (settings.as == "symbols") return write(settings, symbolsText(*compilation->program));
