@@ -86,6 +86,8 @@ class Workbench {
         const payload = [["openFile", `vscode-remote://127.0.0.1:${this.port}${join(folder, file)}`]];
         await this.page.goto(`http://127.0.0.1:${this.port}/?folder=${encodeURIComponent(folder)}&payload=${encodeURIComponent(JSON.stringify(payload))}`, { waitUntil: "commit" });
         await this.page.waitForSelector(".monaco-editor .view-line", { timeout: patience });
+        await this.expectText(".statusbar", /RAPID/, "language in the status bar");
+        await this.page.locator(".monaco-editor .view-lines").first().click();
     }
     async shot(name) {
         const path = join(out, `${String(++this.shots).padStart(2, "0")}-${name}.png`);
@@ -126,7 +128,6 @@ const steps = {
     /** A mistake: squiggle, row in Problems; corrected: both are gone. */
     async diagnostics(bench) {
         await bench.open("palletizer.modx");
-        await bench.expectText(".statusbar", /RAPID/, "language in the status bar");
         await bench.goTo(12, 1);
         await bench.page.keyboard.press("End");
         await bench.page.keyboard.type("\nn:=missing;");
@@ -169,7 +170,8 @@ const steps = {
         await bench.shot("breakpoint");
         await bench.page.keyboard.press("F5");
         await bench.expectText(".debug-variables", /\bn\b.*1/s, "locals in the second round");
-        await bench.command("Debug: Remove All Breakpoints");
+        await bench.goTo(9, 1);
+        await bench.page.keyboard.press("F9"); // removes it
         await bench.page.keyboard.press("F5");
         await bench.page.waitForSelector(".debug-toolbar", { state: "hidden", timeout: patience });
         await bench.command("Debug Console: Focus on Debug Console View");
