@@ -23,7 +23,8 @@ void Reports::noteMisfit(const diag::Diagnostic& diagnostic, const Subject& subj
 
 /// In a line that could not be read as a whole: what seems wrong there follows from that.
 bool Reports::isUnclear(SourceRange where) const {
-    if (where.begin < quietLine_.end && where.begin >= quietLine_.begin) return true;
+    if (const SourceRange quiet = quietLine(); where.begin < quiet.end && where.begin >= quiet.begin)
+        return true;
     const std::vector<uint32_t>& lines = context_.tree->unclearLines;
     if (lines.empty()) return false;
     const auto after = std::upper_bound(lines.begin(), lines.end(), where.begin);

@@ -48,14 +48,19 @@ class Reports {
     diag::Sink* collectIn(diag::Sink* sink) { return std::exchange(collect_, sink); }
     diag::Sink* collected() const { return collect_; }
     /// The rest of a line of the routine that was meant in another way, which is reported.
-    void setQuietLine(SourceRange line) { quietLine_ = line; }
-    SourceRange quietLine() const { return quietLine_; }
+    void setQuietLine(SourceRange line) {
+        quietLine_ = line;
+        quietTree_ = context_.tree;
+    }
+    /// Empty in another file.
+    SourceRange quietLine() const { return quietTree_ == context_.tree ? quietLine_ : SourceRange{}; }
 
   private:
     diag::Sink& sink_;
     const Context& context_;
     diag::Sink* collect_ = nullptr;
     SourceRange quietLine_;
+    const syntax::SyntaxTree* quietTree_ = nullptr; ///< that it is in
     bool muted_ = false;
     uint32_t lastCause_ = 0;
     std::vector<ReportedMisfit> misfits_;

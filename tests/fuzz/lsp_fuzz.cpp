@@ -7,8 +7,8 @@
 #include "config/json_text.h"
 #include "fuzz_support.h"
 #include "tests/harness/plain_environment.h"
-#include "tools/lsp/frames.h"
 #include "tools/lsp/server.h"
+#include "tools/protocol/framing.h"
 
 #include <map>
 
@@ -136,11 +136,13 @@ class Conversation {
 
 /// The same bytes as frames, in pieces.
 void readFrames(const std::string& bytes) {
-    lsp::FrameReader reader;
-    for (size_t at = 0; at < bytes.size() && !reader.isBroken(); at += 7) {
-        reader.feed(std::string_view(bytes).substr(at, 7));
-        while (const auto body = reader.next())
-            fuzz::require(body->size() <= bytes.size(), "a body is longer than what was read");
+    using protocol::FrameReader;
+    FrameReader reader(FrameReader::Stray::Skipped);
+    std::string body;
+    for (size_t at = 0; at < bytes.size(); at += 7) {
+        reader.add(std::string_view(bytes).substr(at, 7));
+        while (reader.next(body) == FrameReader::Result::Message)
+            fuzz::require(body.size() <= bytes.size(), "a body is longer than what was read");
     }
 }
 

@@ -1,8 +1,8 @@
 #include "tools/lsp/serve.h"
 
 #include "config/json_text.h"
-#include "tools/lsp/frames.h"
 #include "tools/lsp/server.h"
+#include "tools/protocol/framing.h"
 
 #include <algorithm>
 #include <atomic>
@@ -94,7 +94,7 @@ class Reader {
     void run() {
         constexpr int kWatchMilliseconds = 2000;
         std::string buffer(size_t{1} << 16, '\0');
-        while (!frames_.isBroken()) {
+        while (!broken_) {
             pollfd input{STDIN_FILENO, POLLIN, 0};
             const int ready = poll(&input, 1, kWatchMilliseconds);
             if (ready < 0 && errno != EINTR) break;
@@ -105,14 +105,22 @@ class Reader {
             const ssize_t count = read(STDIN_FILENO, buffer.data(), buffer.size());
             if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
             if (count <= 0) break;
-            frames_.feed(std::string_view(buffer).substr(0, static_cast<size_t>(count)));
-            while (const auto body = frames_.next())
-                take(parse(*body));
+            frames_.add(std::string_view(buffer).substr(0, static_cast<size_t>(count)));
+            takeMessages();
         }
         inbox_.close();
     }
 
   private:
+    void takeMessages() {
+        using Result = protocol::FrameReader::Result;
+        std::string body;
+        Result result = frames_.next(body);
+        for (; result == Result::Message; result = frames_.next(body))
+            take(parse(body));
+        broken_ = result == Result::Broken;
+    }
+
     void take(Message message) {
         if (message && message->is_object() && message->value("method", Json()) == "$/cancelRequest")
             if (const Json* id = at(*message, "params.id")) return inbox_.cancel(*id);
@@ -121,14 +129,15 @@ class Reader {
 
     Inbox& inbox_;
     const std::atomic<int64_t>& client_;
-    FrameReader frames_;
+    protocol::FrameReader frames_{protocol::FrameReader::Stray::Skipped};
+    bool broken_ = false;
 };
 
 /// Writes frames until the client has closed its end.
 class Writer {
   public:
     void send(const Json& message) {
-        const std::string bytes = frame(rapid::config::textOf(message));
+        const std::string bytes = protocol::frame(rapid::config::textOf(message));
         for (size_t sent = 0; sent < bytes.size() && !broken_;) {
             const ssize_t count = write(STDOUT_FILENO, bytes.data() + sent, bytes.size() - sent);
             if (count > 0)

@@ -38,18 +38,8 @@ FrameReader::Result FrameReader::broken(std::string problem) {
     return Result::Broken;
 }
 
-FrameReader::Result FrameReader::readHeader() {
-    const std::string_view rest = std::string_view(buffer_).substr(begin_);
-    std::size_t size = 4;
-    std::size_t end = rest.find("\r\n\r\n");
-    if (const std::size_t plain = rest.find("\n\n");
-        plain < end) { // some clients leave out the carriage returns
-        end = plain;
-        size = 2;
-    }
-    if (end == std::string_view::npos)
-        return rest.size() > kLongestHeader ? broken("the header of a message is too long") : Result::More;
-    std::string_view header = rest.substr(0, end);
+/// Takes the length out of a header; returns what is wrong with it.
+std::string FrameReader::lengthIn(std::string_view header) {
     bool known = false;
     while (!header.empty()) {
         const std::size_t stop = std::min(header.find('\n'), header.size());
@@ -57,17 +47,36 @@ FrameReader::Result FrameReader::readHeader() {
         header.remove_prefix(std::min(stop + 1, header.size()));
         if (line.empty()) continue;
         const std::size_t colon = line.find(':');
-        if (colon == std::string_view::npos) return broken("a header line has no colon");
+        if (colon == std::string_view::npos) return "a header line has no colon";
         if (!isLengthName(trimmed(line.substr(0, colon)))) continue;
         if (known || !readNumber(trimmed(line.substr(colon + 1)), length_))
-            return broken("Content-Length is not one number");
+            return "Content-Length is not one number";
         known = true;
     }
-    if (!known) return broken("the header of a message has no Content-Length");
-    if (length_ > kLongestMessage) return broken("a message is too long");
-    begin_ += end + size;
-    inBody_ = true;
-    return Result::Message;
+    return known ? "" : "the header of a message has no Content-Length";
+}
+
+FrameReader::Result FrameReader::readHeader() {
+    for (;;) {
+        const std::string_view rest = std::string_view(buffer_).substr(begin_);
+        std::size_t size = 4;
+        std::size_t end = rest.find("\r\n\r\n");
+        if (const std::size_t plain = rest.find("\n\n");
+            plain < end) { // some clients leave out the carriage returns
+            end = plain;
+            size = 2;
+        }
+        if (end == std::string_view::npos)
+            return rest.size() > kLongestHeader ? broken("the header of a message is too long")
+                                                : Result::More;
+        std::string problem = lengthIn(rest.substr(0, end));
+        if (!problem.empty() && stray_ == Stray::Refused) return broken(std::move(problem));
+        begin_ += end + size;
+        if (!problem.empty()) continue;
+        if (length_ > kLongestMessage) return broken("a message is too long");
+        inBody_ = true;
+        return Result::Message;
+    }
 }
 
 FrameReader::Result FrameReader::next(std::string& message) {

@@ -15,11 +15,19 @@ class FrameReader {
     static constexpr std::size_t kLongestHeader = 16u << 10;
     static constexpr std::size_t kLongestMessage = 256u << 20;
 
+    /// What happens to lines up to an empty one that are not a header.
+    enum class Stray {
+        Refused, ///< they end the conversation
+        Skipped  ///< the conversation continues after them
+    };
+
     enum class Result {
         Message,
         More,  ///< the bytes so far end inside a message
         Broken ///< they are not a message; see problem(). The rest cannot be read any more
     };
+
+    explicit FrameReader(Stray stray = Stray::Refused) : stray_(stray) {}
 
     void add(std::string_view bytes) { buffer_.append(bytes); }
     /// The next message, without its header.
@@ -31,7 +39,9 @@ class FrameReader {
   private:
     Result broken(std::string problem);
     Result readHeader();
+    std::string lengthIn(std::string_view header);
 
+    Stray stray_;
     std::string buffer_;
     std::size_t begin_ = 0;  ///< of what has not been taken
     std::size_t length_ = 0; ///< of the message whose header was read

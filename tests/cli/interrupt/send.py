@@ -43,7 +43,7 @@ def main():
             sys.stdout.write(process.stdout.read().decode())
         print(f"status {status}")
         for left in os.listdir(folder):
-            print(f"left over: {left}")
+            print(f"not removed: {left}")
 
 
 main()

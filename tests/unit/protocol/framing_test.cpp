@@ -52,6 +52,19 @@ TEST_CASE("A broken header ends the stream with a reason", "[protocol]") {
     CHECK(reader.next(message) == FrameReader::Result::Broken);
 }
 
+TEST_CASE("Lines that are not a header can be skipped", "[protocol]") {
+    const std::string bytes = "a stray line\r\n\r\n" + protocol::frame("one") + "Content-Length: x\n\n" +
+                              "Other: 1\r\n\r\n" + protocol::frame("two");
+    for (std::size_t piece = 1; piece <= bytes.size(); ++piece) {
+        FrameReader reader(FrameReader::Stray::Skipped);
+        CHECK(messagesOf(bytes, piece, reader) == std::vector<std::string>{"one", "two"});
+    }
+    FrameReader reader(FrameReader::Stray::Skipped);
+    std::string message;
+    reader.add("Content-Length: 999999999999\r\n\r\n");
+    CHECK(reader.next(message) == FrameReader::Result::Broken);
+}
+
 TEST_CASE("The end of the input inside a message is known", "[protocol]") {
     FrameReader reader;
     std::string message;
