@@ -15,7 +15,7 @@ class FrameReader {
     static constexpr std::size_t kLongestHeader = 16u << 10;
     static constexpr std::size_t kLongestMessage = 256u << 20;
 
-    /// What happens to lines up to an empty one that are not a header.
+    /// The treatment of lines before an empty one that are not a header.
     enum class Stray {
         Refused, ///< they end the conversation
         Skipped  ///< the conversation continues after them
