@@ -57,10 +57,11 @@ class Completer {
     CompletionList run() {
         list_.replace = {cursor_.word.begin, std::max(offset_, cursor_.word.begin)};
         collect();
-        std::sort(list_.items.begin(), list_.items.end(),
-                  [](const CompletionItem& a, const CompletionItem& b) {
-                      return std::tie(a.sortText, a.label) < std::tie(b.sortText, b.label);
-                  });
+        const size_t kept = std::min(list_.items.size(), options_.limit);
+        std::partial_sort(list_.items.begin(), list_.items.begin() + static_cast<std::ptrdiff_t>(kept),
+                          list_.items.end(), [](const CompletionItem& a, const CompletionItem& b) {
+                              return std::tie(a.sortText, a.label) < std::tie(b.sortText, b.label);
+                          });
         if (list_.items.size() > options_.limit) {
             list_.items.resize(options_.limit);
             list_.incomplete = true;

@@ -109,18 +109,29 @@ const LabelSymbol* Scope::findLabel(std::string_view name) const {
 std::vector<const Symbol*> Scope::visible(const Cancel* cancel, std::string_view letters) const {
     std::vector<const Symbol*> found;
     std::unordered_set<std::string> hidden;
+    const NameTable* globals = nullptr; ///< once they are among the names found
     const auto add = [&](const Symbol& symbol) {
-        if (!symbol.name.empty() && fuzzyMatch(letters, symbol.name) &&
-            hidden.insert(foldName(symbol.name)).second)
-            found.push_back(&symbol);
+        if (symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
+        std::string folded = foldName(symbol.name);
+        if (globals && globals->contains(folded)) return false;
+        if (hidden.insert(std::move(folded)).second) found.push_back(&symbol);
         return false;
     };
     inRoutine(add);
     if (around_.module) inModule(*around_.module, add);
     if (isCancelled(cancel)) return found;
+    globals = file_.task ? &snapshot_.globals(*file_.task) : nullptr;
     if (file_.task) {
-        for (const Module* module : file_.task->modules)
-            inModule(*module, [&](const Symbol& symbol) { return !symbol.isLocal && add(symbol); });
+        // The table has each name once; a set of them all would cost more than the rest of the answer.
+        for (const Module* module : file_.task->modules) {
+            if (isCancelled(cancel)) return found;
+            inModule(*module, [&](const Symbol& symbol) {
+                if (symbol.isLocal || symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
+                std::string folded = foldName(symbol.name);
+                if (!hidden.contains(folded) && findIn(*globals, folded) == &symbol) found.push_back(&symbol);
+                return false;
+            });
+        }
         for (const auto& [name, symbol] : snapshot_.configured())
             if (!symbol->assumed || !symbol->module || snapshot_.fileOf(*symbol->module)) add(*symbol);
     }

@@ -22,8 +22,11 @@ template <class F> void forEachDeclared(const Module& module, F&& visit) {
 } // namespace
 
 Snapshot::Snapshot(const CheckedProgram& program,
-                   std::vector<std::shared_ptr<const SourceFile>> configuration)
-    : program_(program), configuration_(std::move(configuration)) {
+                   std::vector<std::shared_ptr<const SourceFile>> configuration,
+                   std::shared_ptr<GlobalNames> kept)
+    : program_(program), configuration_(std::move(configuration)),
+      globals_(kept ? std::move(kept) : std::make_shared<GlobalNames>()) {
+    globals_->programChanged();
     addFiles();
 }
 
@@ -82,14 +85,7 @@ const FileView* Snapshot::fileOf(const Module& module) const {
 }
 
 const NameTable& Snapshot::globals(const Task& task) const {
-    const auto [place, isNew] = globals_.try_emplace(&task);
-    if (isNew)
-        for (const Module* module : task.modules)
-            forEachDeclared(*module, [&](const Symbol& symbol) {
-                if (!symbol.isLocal && !symbol.name.empty())
-                    place->second.emplace(foldName(symbol.name), &symbol);
-            });
-    return place->second;
+    return globals_->of(task);
 }
 
 const NameTable& Snapshot::predefined() const {

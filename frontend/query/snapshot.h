@@ -2,6 +2,7 @@
 // A checked program as queries see it: files by path, names by spelling, and indexes that are built when first used.
 
 #include "frontend/query/cancel.h"
+#include "frontend/query/global_names.h"
 #include "frontend/sema/checked.h"
 
 #include <map>
@@ -27,9 +28,6 @@ struct FileView {
     bool isLibrary() const { return task == nullptr; }
 };
 
-/// Symbols by folded name.
-using NameTable = std::unordered_map<std::string, const sema::Symbol*>;
-
 /// A range in a file: a place to go to.
 struct Location {
     std::shared_ptr<const SourceFile> file;
@@ -45,9 +43,11 @@ struct Location {
 /// parts of plain aggregates when asked, so only one thread at a time may use the snapshots of a program.
 class Snapshot {
   public:
-    /// `configuration`: the texts of the .cfg files that belong to the program, for places in them.
+    /// `configuration`: the texts of the .cfg files that belong to the program, for places in them. `kept`: the names of the
+    /// program's last snapshot, which may not be used any more; null: there was none.
     explicit Snapshot(const sema::CheckedProgram& program,
-                      std::vector<std::shared_ptr<const SourceFile>> configuration = {});
+                      std::vector<std::shared_ptr<const SourceFile>> configuration = {},
+                      std::shared_ptr<GlobalNames> kept = nullptr);
     ~Snapshot();
     Snapshot(const Snapshot&) = delete;
     Snapshot& operator=(const Snapshot&) = delete;
@@ -77,7 +77,7 @@ class Snapshot {
     std::vector<std::shared_ptr<const SourceFile>> configuration_;
     std::vector<std::unique_ptr<FileView>> files_; ///< those of the library last
     std::unordered_map<const syntax::SyntaxTree*, const FileView*> byTree_;
-    mutable std::unordered_map<const sema::Task*, NameTable> globals_;
+    std::shared_ptr<GlobalNames> globals_;
     mutable NameTable predefined_;
     mutable std::map<std::string, const sema::DataSymbol*> configured_;
     mutable bool configuredKnown_ = false;

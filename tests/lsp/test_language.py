@@ -40,6 +40,36 @@ ENDMODULE
 """
 
 
+class GlobalNamesAfterEdits(LspCase):
+    """Completion offers what the modules declare now (manual 1.1.5: global names are seen in the whole task)."""
+
+    def offered(self, client, document, text):
+        items = client.request("textDocument/completion", at(document, text, "x := sh", offset=7))["items"]
+        return sorted((i["label"], i["detail"]) for i in items if i["label"].startswith("sh"))
+
+    def test_names_come_and_go_with_their_modules(self):
+        user = "MODULE user\n  PROC main()\n    VAR num x;\n    x := sh;\n  ENDPROC\nENDMODULE\n"
+        one = "MODULE one\n  CONST num shape := 1;\nENDMODULE\n"
+        two = "MODULE two\n  LOCAL CONST num shy := 1;\nENDMODULE\n"
+        self.write("one.modx", one)
+        self.write("two.modx", two)
+        client, document = self.opened(user, "user.modx")
+        paths = [os.path.join(self.work(), name) for name in ("one.modx", "two.modx")]
+        first, second = (client.open(path, text) for path, text in zip(paths, (one, two)))
+        self.assertEqual(self.offered(client, document, user), [("shape", "CONST num")])  # LOCAL: not seen outside
+        client.change(second, 2, two.replace("LOCAL CONST", "CONST"))
+        self.assertEqual(self.offered(client, document, user), [("shape", "CONST num"), ("shy", "CONST num")])
+        client.change(first, 2, one.replace("shape", "shade"))
+        self.assertEqual(self.offered(client, document, user), [("shade", "CONST num"), ("shy", "CONST num")])
+        # Both declare it: offered once; when one of the two leaves, the other one is seen.
+        client.change(second, 3, two.replace("LOCAL CONST num shy", "VAR num shade"))
+        self.assertEqual([label for label, _ in self.offered(client, document, user)], ["shade"])
+        client.change(first, 3, "MODULE one\nENDMODULE\n")
+        self.assertEqual(self.offered(client, document, user), [("shade", "VAR num")])
+        client.change(second, 4, "MODULE two\nENDMODULE\n")
+        self.assertEqual(self.offered(client, document, user), [])
+
+
 class Language(LspCase):
     def setUp(self):
         super().setUp()

@@ -90,7 +90,9 @@ const rapid::query::Snapshot& State::snapshot(const rapid::workspace::Program& p
             configuration.push_back(
                 std::make_shared<const rapid::SourceFile>(loaded.configNames[i], loaded.configTexts[i]));
     kept.snapshot.reset();
-    kept.snapshot = std::make_unique<rapid::query::Snapshot>(program.checked(), std::move(configuration));
+    if (!kept.names) kept.names = std::make_shared<rapid::query::GlobalNames>();
+    kept.snapshot =
+        std::make_unique<rapid::query::Snapshot>(program.checked(), std::move(configuration), kept.names);
     kept.generation = program.generation();
     return *kept.snapshot;
 }

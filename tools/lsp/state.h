@@ -88,6 +88,8 @@ class State {
     std::chrono::steady_clock::time_point settingsDeadline;
     /// Some text, file or setting changed since diagnostics were published.
     bool dirty = false;
+    /// Of the request that is worked on: handlers give it to their queries. Null: it cannot be cancelled.
+    const rapid::query::Cancel* cancel = nullptr;
 
   private:
     Send send_;
@@ -98,6 +100,7 @@ class State {
     struct KeptSnapshot {
         uint64_t generation = 0;
         std::unique_ptr<rapid::query::Snapshot> snapshot;
+        std::shared_ptr<rapid::query::GlobalNames> names; ///< of all snapshots of the program
     };
     std::map<std::string, KeptSnapshot> snapshots_; ///< by root of the program
 };
