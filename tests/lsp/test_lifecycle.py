@@ -156,6 +156,28 @@ class Lifecycle(LspCase):
         answer = client.response(last)
         self.assertTrue("result" in answer or answer["error"]["code"] == -32800)
 
+    def test_a_request_is_cancelled_while_it_is_worked_on(self):
+        # Chapter "Cancellation Support": the request still gets an answer, the error RequestCancelled.
+        routines, lines = 100, 25
+        uses = 2 * routines * lines
+        text = "MODULE m\n  VAR num n;\n" + "".join(
+            f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
+        client, document = self.opened(text)
+        client.settle()
+        ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
+               "context": {"includeDeclaration": False}}
+        number = client.start("textDocument/references", ask)
+        client.notify("$/cancelRequest", {"id": number})
+        client.notify("$/cancelRequest", {"id": number})
+        self.assertEqual(client.response(number)["error"]["code"], -32800)
+        # The conversation continues, and the next answer is a whole one.
+        self.assertEqual(len(client.request("textDocument/references", ask)), uses)
+        # A request that has its answer cannot be cancelled; its id is free again.
+        client.notify("$/cancelRequest", {"id": number})
+        client.send({"id": number, "method": "textDocument/references", "params": ask})
+        self.assertEqual(len(client.response(number)["result"]), uses)
+        self.assertEqual(client.stop(), 0)
+
     def test_usage(self):
         done = subprocess.run([RAPIDC, "lsp", "-Wno-such-warning-name"], input=b"", capture_output=True, check=False)
         self.assertEqual((done.returncode, done.stdout), (3, b""))

@@ -80,7 +80,8 @@ const char* kindOf(query::RefactoringKind kind) {
 
 void addRefactorings(State& state, const Target& target, SourceRange range, const Json* only,
                      const std::vector<const Diagnostic*>& diagnostics, Json& actions) {
-    for (const query::Refactoring& found : query::refactoringsAt(*target.snapshot, *target.view, range)) {
+    for (const query::Refactoring& found :
+         query::refactoringsAt(*target.snapshot, *target.view, range, state.cancel)) {
         const std::string kind = kindOf(found.kind);
         if (!isWanted(only, kind)) continue;
         Json action{{"title", found.title},

@@ -79,7 +79,8 @@ Json completion(State& state, const Json& params) {
     if (!target.isModule()) return configurationCompletion(state, target);
     query::CompletionOptions options;
     options.limit = 1000; // more than anyone reads; the next letter asks again
-    return toJson(state, target, query::completionAt(*target.snapshot, *target.view, target.offset, options));
+    return toJson(state, target,
+                  query::completionAt(*target.snapshot, *target.view, target.offset, options, state.cancel));
 }
 
 Json resolveCompletion(State& state, const Json& params) {

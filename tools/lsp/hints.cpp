@@ -84,7 +84,8 @@ Json inlayHint(State& state, const Json& params) {
     const rapid::SourceRange range = target.positions->offsets(rangeOf(field(params, "range")));
     Json out = Json::array();
     if (!target.isModule()) return out;
-    for (const query::InlayHint& hint : query::inlayHints(*target.snapshot, *target.view, range)) {
+    for (const query::InlayHint& hint :
+         query::inlayHints(*target.snapshot, *target.view, range, state.cancel)) {
         if (hint.offset < range.begin || hint.offset > range.end) continue;
         Json item{{"position", lsp::toJson(target.positions->at(hint.offset))}, {"label", hint.label}};
         if (hint.isParameter) item["kind"] = kParameter;
@@ -122,7 +123,8 @@ Json resolveCodeLens(State& state, const Json& params) {
     const Json* data = optionalField(params, "data");
     if (!data) return lens;
     const query::Snapshot* snapshot = snapshotOf(state, *data);
-    const size_t count = snapshot ? query::countReferences(*snapshot, textField(*data, "key")) : 0;
+    const size_t count =
+        snapshot ? query::countReferences(*snapshot, textField(*data, "key"), state.cancel) : 0;
     lens["command"] = {{"title", fmt::format("{} reference{}", count, count == 1 ? "" : "s")},
                        {"command", ""}};
     return lens;
@@ -132,7 +134,7 @@ Json documentLink(State& state, const Json& params) {
     const Target target = state.target(params);
     std::vector<query::FileLink> links;
     if (target.isModule())
-        links = query::documentLinks(*target.view);
+        links = query::documentLinks(*target.view, state.cancel);
     else if (rapid::project::extensionOf(target.path) == ".pgf")
         links = query::programFileLinks(target.positions->file().text());
     Json out = Json::array();
@@ -155,8 +157,8 @@ Json incomingCalls(State& state, const Json& params) {
     const Json& data = objectField(objectField(params, "item"), "data");
     const query::Snapshot* snapshot = snapshotOf(state, data);
     if (!snapshot) return nullptr;
-    return edges(state, textField(data, "path"), query::incomingCalls(*snapshot, textField(data, "key")),
-                 "from", nullptr);
+    return edges(state, textField(data, "path"),
+                 query::incomingCalls(*snapshot, textField(data, "key"), state.cancel), "from", nullptr);
 }
 
 Json outgoingCalls(State& state, const Json& params) {
@@ -166,8 +168,9 @@ Json outgoingCalls(State& state, const Json& params) {
     if (!snapshot) return nullptr;
     const query::FileView* file = snapshot->file(state.documents.pathOfUri(textField(item, "uri")));
     if (!file) return Json::array(); // predefined: it calls nothing that can be shown
-    return edges(state, textField(data, "path"), query::outgoingCalls(*snapshot, textField(data, "key")),
-                 "to", file->tree->source);
+    return edges(state, textField(data, "path"),
+                 query::outgoingCalls(*snapshot, textField(data, "key"), state.cancel), "to",
+                 file->tree->source);
 }
 
 } // namespace lsp

@@ -66,7 +66,7 @@ Json references(State& state, const Json& params) {
     const query::Meaning meaning = query::meaningAt(*target.snapshot, *target.view, target.offset);
     std::vector<query::Location> found;
     if (meaning.found())
-        for (const query::Use& use : query::usesOf(*target.snapshot, meaning, declaration))
+        for (const query::Use& use : query::usesOf(*target.snapshot, meaning, declaration, state.cancel))
             found.push_back(use.place);
     return toJson(state, found);
 }
@@ -75,7 +75,8 @@ Json documentHighlight(State& state, const Json& params) {
     const Target target = state.targetAt(params);
     Json out = Json::array();
     if (!target.isModule()) return out;
-    for (const query::Use& use : query::highlightsAt(*target.snapshot, *target.view, target.offset))
+    for (const query::Use& use :
+         query::highlightsAt(*target.snapshot, *target.view, target.offset, state.cancel))
         out.push_back(
             {{"range", toJson(target.positions->range(use.place.range))}, {"kind", kindOf(use.access)}});
     return out;
@@ -95,8 +96,9 @@ Json rename(State& state, const Json& params) {
     const std::string name = textField(params, "newName");
     if (!target.isModule()) throw RequestError{error::kRequestFailed, "only names in modules can be renamed"};
     const auto& loaded = target.program->loaded();
-    const query::RenameResult result =
-        query::renameAt(*target.snapshot, *target.view, target.offset, name, loaded.tasks, loaded.options);
+    const query::RenameResult result = query::renameAt(*target.snapshot, *target.view, target.offset, name,
+                                                       loaded.tasks, loaded.options, state.cancel);
+    if (query::isCancelled(state.cancel)) return nullptr; // no half of a renaming
     if (!result.problem.empty()) throw RequestError{error::kRequestFailed, result.problem};
     std::vector<std::pair<std::shared_ptr<const rapid::SourceFile>, std::vector<rapid::TextEdit>>> files;
     for (const rapid::edit::FileEdits& file : result.files)

@@ -86,7 +86,7 @@ Json workspaceSymbol(State& state, const Json& params) {
     std::set<std::string> seen; // a file may be part of several programs
     for (const rapid::workspace::Program* program : state.workspace.programs())
         for (const query::WorkspaceSymbol& symbol :
-             query::workspaceSymbols(state.snapshot(*program), letters)) {
+             query::workspaceSymbols(state.snapshot(*program), letters, 500, state.cancel)) {
             Json place = state.location(symbol.place);
             if (place.is_null() || !seen.insert(place.dump() + symbol.name).second) continue;
             out.push_back({{"name", symbol.name},
@@ -101,7 +101,7 @@ Json foldingRange(State& state, const Json& params) {
     const Target target = state.target(params);
     Json out = Json::array();
     if (!target.isModule()) return out;
-    for (const query::FoldingRange& fold : query::foldingRanges(*target.view)) {
+    for (const query::FoldingRange& fold : query::foldingRanges(*target.view, state.cancel)) {
         Json item{{"startLine", fold.firstLine - 1}, {"endLine", fold.lastLine - 1}};
         if (fold.isComment) item["kind"] = "comment";
         out.push_back(std::move(item));

@@ -55,9 +55,9 @@ uint64_t nextNumber() {
     return ++last;
 }
 
-Numbers numbersOf(const Target& target) {
+Numbers numbersOf(const State& state, const Target& target) {
     if (!target.isModule()) return {};
-    return encode(*target.positions, query::semanticTokens(*target.snapshot, *target.view));
+    return encode(*target.positions, query::semanticTokens(*target.snapshot, *target.view, state.cancel));
 }
 
 /// The piece that differs.
@@ -84,7 +84,7 @@ Json semanticTokensProvider() {
 Json semanticTokensFull(State& state, const Json& params) {
     const Target target = state.target(params);
     Kept& last = kept(target.path);
-    last = {nextNumber(), numbersOf(target)};
+    last = {nextNumber(), numbersOf(state, target)};
     return {{"resultId", std::to_string(last.number)}, {"data", last.numbers}};
 }
 
@@ -93,7 +93,7 @@ Json semanticTokensDelta(State& state, const Json& params) {
     const Target target = state.target(params);
     Kept& last = kept(target.path);
     if (previous != std::to_string(last.number)) return semanticTokensFull(state, params);
-    Numbers now = numbersOf(target);
+    Numbers now = numbersOf(state, target);
     Json edits = Json::array();
     if (now != last.numbers) edits.push_back(edit(last.numbers, now));
     last = {nextNumber(), std::move(now)};
@@ -104,7 +104,8 @@ Json semanticTokensRange(State& state, const Json& params) {
     const Target target = state.target(params);
     const rapid::SourceRange range = target.positions->offsets(rangeOf(field(params, "range")));
     if (!target.isModule()) return {{"data", Json::array()}};
-    std::vector<query::SemanticToken> tokens = query::semanticTokens(*target.snapshot, *target.view, range);
+    std::vector<query::SemanticToken> tokens =
+        query::semanticTokens(*target.snapshot, *target.view, range, false, state.cancel);
     std::erase_if(tokens, [&](const query::SemanticToken& token) {
         return token.offset + token.length <= range.begin || token.offset >= range.end;
     });

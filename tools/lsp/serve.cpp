@@ -4,17 +4,16 @@
 #include "tools/lsp/server.h"
 #include "tools/protocol/framing.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <poll.h>
-#include <set>
 #include <thread>
 #include <unistd.h>
 
@@ -27,11 +26,13 @@ using Clock = std::chrono::steady_clock;
 /// A message that was read; no value: it is not JSON.
 using Message = std::optional<Json>;
 
-/// Messages on their way from the reader to the worker, and the requests that were cancelled since.
+/// Messages on their way from the reader to the worker, and for each request that has no answer yet whether it was
+/// cancelled.
 class Inbox {
   public:
     void put(Message message) {
         const std::lock_guard lock(mutex_);
+        if (isRequest(message)) open_.try_emplace(message->at("id").dump());
         messages_.push_back(std::move(message));
         arrived_.notify_one();
     }
@@ -42,15 +43,18 @@ class Inbox {
     }
     void cancel(const Json& id) {
         const std::lock_guard lock(mutex_);
-        const auto same = [&](const Message& m) {
-            return m && m->is_object() && m->contains("method") && m->value("id", Json()) == id;
-        };
-        if (std::any_of(messages_.begin(), messages_.end(), same)) cancelled_.insert(id.dump());
+        if (const auto request = open_.find(id.dump()); request != open_.end()) request->second.request();
     }
-    /// Once for each cancelled request.
-    bool takeCancelled(const Json& id) {
+    /// Good until done(); null when there is no such request.
+    const rapid::query::Cancel* cancelOf(const Json& id) {
         const std::lock_guard lock(mutex_);
-        return !cancelled_.empty() && cancelled_.erase(id.dump()) > 0;
+        const auto request = open_.find(id.dump());
+        return request == open_.end() ? nullptr : &request->second;
+    }
+    /// The worker has answered it.
+    void done(const Message& message) {
+        const std::lock_guard lock(mutex_);
+        if (isRequest(message)) open_.erase(message->at("id").dump());
     }
     bool hasMessages() {
         const std::lock_guard lock(mutex_);
@@ -68,10 +72,14 @@ class Inbox {
     }
 
   private:
+    static bool isRequest(const Message& message) {
+        return message && message->is_object() && message->contains("method") && message->contains("id");
+    }
+
     std::mutex mutex_;
     std::condition_variable arrived_;
     std::deque<Message> messages_;
-    std::set<std::string> cancelled_;
+    std::map<std::string, rapid::query::Cancel> open_; ///< by id
     bool closed_ = false;
 };
 
@@ -181,6 +189,7 @@ void work(Server& server, Inbox& inbox, const Writer& writer, std::atomic<int64_
             server.receive(*message);
         else
             server.receiveGarbage();
+        inbox.done(message);
         client = server.clientProcess();
     }
 }
@@ -195,7 +204,7 @@ int serve(const rapid::workspace::Environment& environment, const std::vector<st
     static auto& reader = *new Reader(inbox, client);
     Writer writer;
     Server server(environment, [&writer](const Json& message) { writer.send(message); });
-    server.setCancelled([](const Json& id) { return inbox.takeCancelled(id); });
+    server.setCancel([](const Json& id) { return inbox.cancelOf(id); });
     server.setWarnings(warnings);
     std::thread([] { reader.run(); }).detach();
     work(server, inbox, writer, client);

@@ -14,6 +14,8 @@ Server::Server(const rapid::workspace::Environment& environment, State::Send sen
 
 namespace {
 
+constexpr const char* kCancelledText = "the request was cancelled";
+
 bool isId(const Json& id) {
     return id.is_string() || id.is_number_integer();
 }
@@ -65,7 +67,8 @@ void Server::receive(const Json& message) {
 }
 
 void Server::request(const Json& id, const std::string& method, const Json& params) {
-    if (cancelled_ && cancelled_(id)) return refuse(id, error::kCancelled, "the request was cancelled");
+    state_.cancel = cancelOf_ ? cancelOf_(id) : nullptr;
+    if (rapid::query::isCancelled(state_.cancel)) return refuse(id, error::kCancelled, kCancelledText);
     if (phase_ == Phase::New && method != "initialize")
         return refuse(id, error::kNotInitialized, "the first request has to be 'initialize'");
     if (phase_ == Phase::ShutDown)
@@ -100,7 +103,10 @@ Json Server::answer(const std::string& method, const Json& params) {
     const auto handler = requests().find(method);
     if (handler == requests().end())
         throw RequestError{error::kMethodNotFound, fmt::format("there is no request '{}'", method)};
-    return handler->second(state_, params);
+    Json found = handler->second(state_, params);
+    // A query that was cancelled has returned a part of its answer.
+    if (rapid::query::isCancelled(state_.cancel)) throw RequestError{error::kCancelled, kCancelledText};
+    return found;
 }
 
 void Server::notification(const std::string& method, const Json& params) {

@@ -15,8 +15,9 @@ class Server {
   public:
     Server(const rapid::workspace::Environment& environment, State::Send send);
 
-    /// Whether the client has cancelled a request; asked before it is worked on.
-    void setCancelled(std::function<bool(const Json& id)> cancelled) { cancelled_ = std::move(cancelled); }
+    /// Says whether the client has cancelled a request, before and while it is worked on; null: it cannot be cancelled.
+    using CancelOf = std::function<const rapid::query::Cancel*(const Json& id)>;
+    void setCancel(CancelOf cancelOf) { cancelOf_ = std::move(cancelOf); }
     /// Options as those of -W, which hold as long as the client has no settings of its own.
     void setWarnings(const std::vector<std::string>& warnings) { state_.workspace.setWarnings(warnings); }
     /// Takes one message.
@@ -54,7 +55,7 @@ class Server {
     Phase phase_ = Phase::New;
     bool wasShutDown_ = false;
     bool showsProgress_ = false; ///< the client shows that folders are being read
-    std::function<bool(const Json& id)> cancelled_;
+    CancelOf cancelOf_;
 };
 
 } // namespace lsp
