@@ -158,7 +158,7 @@ class Lifecycle(LspCase):
 
     def test_a_request_is_cancelled_while_it_is_worked_on(self):
         # Chapter "Cancellation Support": the request still gets an answer, the error RequestCancelled.
-        routines, lines = 100, 25
+        routines, lines = 400, 25
         uses = 2 * routines * lines
         text = "MODULE m\n  VAR num n;\n" + "".join(
             f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"

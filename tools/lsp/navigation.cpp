@@ -6,8 +6,9 @@
 #include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <set>
+#include <string>
 
 namespace lsp {
 
@@ -15,10 +16,10 @@ namespace query = rapid::query;
 
 Json toJson(State& state, const std::vector<query::Location>& places) {
     Json out = Json::array();
+    std::set<std::string> seen;
     for (const query::Location& location : places) {
         Json place = state.location(location);
-        if (!place.is_null() && std::find(out.begin(), out.end(), place) == out.end())
-            out.push_back(std::move(place));
+        if (!place.is_null() && seen.insert(place.dump()).second) out.push_back(std::move(place));
     }
     return out;
 }
