@@ -57,15 +57,8 @@ class Completer {
     CompletionList run() {
         list_.replace = {cursor_.word.begin, std::max(offset_, cursor_.word.begin)};
         collect();
-        const size_t kept = std::min(list_.items.size(), options_.limit);
-        std::partial_sort(list_.items.begin(), list_.items.begin() + static_cast<std::ptrdiff_t>(kept),
-                          list_.items.end(), [](const CompletionItem& a, const CompletionItem& b) {
-                              return std::tie(a.sortText, a.label) < std::tie(b.sortText, b.label);
-                          });
-        if (list_.items.size() > options_.limit) {
-            list_.items.resize(options_.limit);
-            list_.incomplete = true;
-        }
+        if (list_.items.size() > options_.limit) keepBest();
+        std::sort(list_.items.begin(), list_.items.end(), isBefore);
         for (CompletionItem& item : list_.items)
             if (item.symbol && item.detail.empty()) {
                 item.key = keyOf(snapshot_, *item.symbol);
@@ -75,6 +68,17 @@ class Completer {
     }
 
   private:
+    static bool isBefore(const CompletionItem& a, const CompletionItem& b) {
+        return std::tie(a.sortText, a.label) < std::tie(b.sortText, b.label);
+    }
+    /// Drops the items beyond the limit.
+    void keepBest() {
+        const auto end = list_.items.begin() + static_cast<std::ptrdiff_t>(options_.limit);
+        std::nth_element(list_.items.begin(), end, list_.items.end(), isBefore);
+        list_.items.erase(end, list_.items.end());
+        list_.incomplete = true;
+    }
+
     void collect() {
         switch (cursor_.expect) {
         case Expect::Nothing: return;
@@ -101,6 +105,8 @@ class Completer {
     bool matches(std::string_view name) const { return fuzzyMatch(cursor_.prefix, name); }
 
     CompletionItem& append(std::string label, ItemKind kind, char rank, std::string insertText) {
+        // In large programs nearly all items are dropped: early, so that they need no room.
+        if (list_.items.size() / 4 > options_.limit) keepBest();
         CompletionItem& item = list_.items.emplace_back();
         item.label = std::move(label);
         item.kind = kind;
