@@ -14,10 +14,16 @@ bool GlobalNames::OfModule::isUpToDate() const {
            !facts->symbols.owner_before(owner);
 }
 
+bool GlobalNames::OfTask::isUnique() const {
+    return !hasDuplicates &&
+           std::none_of(modules.begin(), modules.end(), [](const OfModule& part) { return part.repeats; });
+}
+
 /// False when another module declares one of the names.
 bool GlobalNames::add(OfTask& names, OfModule& part) {
     const Module& module = *part.module;
     bool isAlone = true;
+    part.repeats = false;
     const auto one = [&](const Symbol& symbol) {
         if (symbol.isLocal || symbol.name.empty()) return;
         const auto [place, isNew] = names.table.emplace(foldName(symbol.name), &symbol);
@@ -25,6 +31,8 @@ bool GlobalNames::add(OfTask& names, OfModule& part) {
             part.names.push_back(&place->first);
         else if (place->second->module != &module)
             isAlone = false;
+        else
+            part.repeats = true;
     };
     for (const TypeSymbol* type : module.types)
         one(*type);
@@ -75,6 +83,11 @@ const NameTable& GlobalNames::of(const Task& task) {
     if (!names.isUpToDate && !update(names, task)) build(names, task);
     names.isUpToDate = true;
     return names.table;
+}
+
+bool GlobalNames::areUnique(const Task& task) {
+    of(task);
+    return tasks_[&task].isUnique();
 }
 
 } // namespace rapid::query

@@ -20,6 +20,8 @@ class GlobalNames {
     void programChanged();
     /// The declarations of modules of the task that all of it sees; of several with one name that of the first module.
     const NameTable& of(const sema::Task& task);
+    /// Whether no name is declared twice.
+    bool areUnique(const sema::Task& task);
 
   private:
     struct OfModule {
@@ -27,6 +29,7 @@ class GlobalNames {
         uint32_t stamp = 0;                     ///< of the check that made its symbols
         std::weak_ptr<sema::FileSymbols> owner; ///< tells apart checks of different programs
         std::vector<const std::string*> names;  ///< keys of the table
+        bool repeats = false;                   ///< the module declares a name twice
 
         bool isUpToDate() const;
     };
@@ -35,6 +38,8 @@ class GlobalNames {
         std::vector<OfModule> modules;
         bool hasDuplicates = false; ///< a name that leaves may reveal another one
         bool isUpToDate = false;
+
+        bool isUnique() const;
     };
     static bool update(OfTask& names, const sema::Task& task);
     static void build(OfTask& names, const sema::Task& task);

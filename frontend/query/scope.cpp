@@ -122,13 +122,15 @@ std::vector<const Symbol*> Scope::visible(const Cancel* cancel, std::string_view
     if (isCancelled(cancel)) return found;
     globals = file_.task ? &snapshot_.globals(*file_.task) : nullptr;
     if (file_.task) {
+        const bool areUnique = snapshot_.hasUniqueGlobals(*file_.task);
         // The table has each name once; a set of them all would cost more than the rest of the answer.
         for (const Module* module : file_.task->modules) {
             if (isCancelled(cancel)) return found;
             inModule(*module, [&](const Symbol& symbol) {
                 if (symbol.isLocal || symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
-                std::string folded = foldName(symbol.name);
-                if (!hidden.contains(folded) && findIn(*globals, folded) == &symbol) found.push_back(&symbol);
+                const std::string folded = foldName(symbol.name);
+                if (!hidden.contains(folded) && (areUnique || findIn(*globals, folded) == &symbol))
+                    found.push_back(&symbol);
                 return false;
             });
         }

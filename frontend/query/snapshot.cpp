@@ -88,6 +88,10 @@ const NameTable& Snapshot::globals(const Task& task) const {
     return globals_->of(task);
 }
 
+bool Snapshot::hasUniqueGlobals(const Task& task) const {
+    return globals_->areUnique(task);
+}
+
 const NameTable& Snapshot::predefined() const {
     if (predefined_.empty())
         for (const Module* module : program_.predefinedModules)

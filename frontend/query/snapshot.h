@@ -64,6 +64,8 @@ class Snapshot {
 
     /// The declarations of modules of the task that all of it sees.
     const NameTable& globals(const sema::Task& task) const;
+    /// Whether no two modules of the task declare the same of these.
+    bool hasUniqueGlobals(const sema::Task& task) const;
     const NameTable& predefined() const;
     /// Signals, mechanical units and identities of tasks: by folded name.
     const std::map<std::string, const sema::DataSymbol*>& configured() const;

@@ -20,7 +20,7 @@ class Session(LspCase):
         self.text, self.version = "", 1
 
     def put(self, old, new):
-        """Replaces the only `old` by `new` as an editor does; the codes of the errors that are shown then."""
+        """Replaces the only `old` with `new` as an editor does; the codes of the errors that are shown then."""
         self.assertEqual(self.text.count(old) if old else 1, 1, f"the session names one place by {old!r}")
         start, end = self.spot(old, 0), self.spot(old, len(old))
         self.version += 1
@@ -71,7 +71,7 @@ class Session(LspCase):
         # A pos has three components (RAP3021).
         start = "\n\nEND"
         self.assertEqual(self.put(start, "\n\n  FUNC pos slot(num n)\n    RETURN [60 * n];\n  ENDFUNC\n\nEND"), ["RAP3021"])
-        # What expects a num offers the parameter and the data of the module, and no instruction.
+        # Where a num is expected, the data of the module is offered, and no instruction.
         self.put("[60 * n]", "[60 * ((n - 1) MOD col")
         offered = self.labels("MOD col")
         self.assertIn("columns", offered)
