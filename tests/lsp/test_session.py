@@ -71,7 +71,7 @@ class Session(LspCase):
         # A pos has three components (RAP3021).
         start = "\n\nEND"
         self.assertEqual(self.put(start, "\n\n  FUNC pos slot(num n)\n    RETURN [60 * n];\n  ENDFUNC\n\nEND"), ["RAP3021"])
-        # Where a num is expected, the data of the module is offered, and no instruction.
+        # A place for a num offers the data of the module, and no instruction.
         self.put("[60 * n]", "[60 * ((n - 1) MOD col")
         offered = self.labels("MOD col")
         self.assertIn("columns", offered)
