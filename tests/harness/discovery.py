@@ -17,6 +17,8 @@ def discover_programs(root, prefix, found):
             found[base] = ProgramTest(where, os.path.join(where, "expected"))
             folders.clear()
             continue
+        if any(name.endswith("Test.modx") for name in names):  # for `rapidc test`: cli/test/sample
+            continue
         for name in sorted(names):
             stem, suffix = os.path.splitext(name)
             if suffix in SOURCE_SUFFIXES:

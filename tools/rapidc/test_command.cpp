@@ -5,6 +5,7 @@
 #include "tools/rapidc/module_store.h"
 #include "tools/rapidc/native_library.h"
 #include "tools/rapidc/pipeline.h"
+#include "tools/rapidc/run_setup.h"
 #include "tools/rapidc/unit_compiler.h"
 #include "tools/testing/coverage.h"
 #include "tools/testing/discovery.h"
@@ -12,7 +13,6 @@
 #include "tools/testing/test_driver.h"
 #include "tools/testing/test_pool.h"
 
-#include "config/read_file.h"
 #include "config/temporary.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/stop_signals.h"
@@ -278,15 +278,6 @@ std::string listed(const std::vector<std::string>& texts) {
     for (const std::string& text : texts)
         result += (result.empty() ? "'" : ", '") + text + "'";
     return result;
-}
-
-/// A stimulus for every test that has none of its own.
-bool readStimulus(rt::RunOptions& options, std::string& error) {
-    if (options.stimulus.empty()) return true;
-    const std::string problem = rapid::config::readStream(options.stimulus, options.stimulusText.emplace());
-    if (!problem.empty())
-        error = fmt::format("--stimulus: '{}' cannot be read: {}", options.stimulus, problem);
-    return problem.empty();
 }
 
 int test(TestSettings& settings) {

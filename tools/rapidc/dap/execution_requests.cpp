@@ -31,8 +31,8 @@ void ExecutionRequests::addTo(Handlers& handlers) {
     };
     add("threads", &ExecutionRequests::threads);
     add("continue", &ExecutionRequests::continueProgram);
-    add("next", &ExecutionRequests::next);
-    add("stepIn", &ExecutionRequests::stepIn);
+    add("next", &ExecutionRequests::stepOver);
+    add("stepIn", &ExecutionRequests::stepInto);
     add("stepOut", &ExecutionRequests::stepOut);
     add("stepBack", &ExecutionRequests::stepBack);
     add("reverseContinue", &ExecutionRequests::reverseContinue);
@@ -70,28 +70,15 @@ Json ExecutionRequests::continueProgram(const Arguments& arguments) {
     return {{"allThreadsContinued", !alone}};
 }
 
-Json ExecutionRequests::next(const Arguments& arguments) {
+Json ExecutionRequests::step(const Arguments& arguments, bool into) {
     rt::Task& task = standing(arguments);
     const bool alone = arguments.flag("singleThread", false);
     const Granularity granularity = granularityOf(arguments);
     rt::Debugger& debugger = context_.debugger();
     order([&] {
         if (granularity == Granularity::Move) return debugger.stepMove(task, alone);
-        if (granularity == Granularity::Line) return debugger.stepLine(task, false, alone);
-        return debugger.stepOver(task, alone);
-    });
-    return nullptr;
-}
-
-Json ExecutionRequests::stepIn(const Arguments& arguments) {
-    rt::Task& task = standing(arguments);
-    const bool alone = arguments.flag("singleThread", false);
-    const Granularity granularity = granularityOf(arguments);
-    rt::Debugger& debugger = context_.debugger();
-    order([&] {
-        if (granularity == Granularity::Move) return debugger.stepMove(task, alone);
-        if (granularity == Granularity::Line) return debugger.stepLine(task, true, alone);
-        return debugger.stepIn(task, alone);
+        if (granularity == Granularity::Line) return debugger.stepLine(task, into, alone);
+        return into ? debugger.stepIn(task, alone) : debugger.stepOver(task, alone);
     });
     return nullptr;
 }

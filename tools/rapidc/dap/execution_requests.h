@@ -24,8 +24,9 @@ class ExecutionRequests {
 
     Json threads(const Arguments& arguments);
     Json continueProgram(const Arguments& arguments);
-    Json next(const Arguments& arguments);
-    Json stepIn(const Arguments& arguments);
+    Json stepOver(const Arguments& arguments) { return step(arguments, false); }
+    Json stepInto(const Arguments& arguments) { return step(arguments, true); }
+    Json step(const Arguments& arguments, bool into);
     Json stepOut(const Arguments& arguments);
     Json stepBack(const Arguments& arguments);
     Json reverseContinue(const Arguments& arguments);
