@@ -60,7 +60,7 @@ LAYERS = {
     # main of built executables: no part of the compiler
     "tools/program_main": ["runtime/", "stdlib"],
     # Content-Length frames of both servers
-    "tools/protocol": [],
+    "tools/protocol": ["config"],
     # the language server: what the runtime and the standard library know is handed in
     "tools/lsp": ["config", "frontend/", "tools/protocol"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol"],

@@ -104,7 +104,7 @@ class CursorReader {
 
     /// The first token of the instruction or declaration; `at_` when it begins at the offset.
     TokenIndex findStart() const {
-        constexpr int kFar = 20000; // tokens: larger values are data, not what somebody writes
+        constexpr int kFar = 20000; // tokens: larger values are data, not written by hand
         int depth = 0;
         TokenIndex t = at_;
         for (int steps = 0; t > 0 && steps < kFar; ++steps, --t) {

@@ -1,5 +1,5 @@
 #pragma once
-// Letters that somebody types for a name.
+// Letters that are typed for a name.
 
 #include <string_view>
 

@@ -1,5 +1,6 @@
 #include "frontend/query/global_names.h"
 
+#include "frontend/query/declared.h"
 #include "frontend/sema/names.h"
 
 #include <algorithm>
@@ -34,12 +35,7 @@ bool GlobalNames::add(OfTask& names, OfModule& part) {
         else
             part.repeats = true;
     };
-    for (const TypeSymbol* type : module.types)
-        one(*type);
-    for (const DataSymbol* data : module.data)
-        one(*data);
-    for (const RoutineSymbol* routine : module.routines)
-        one(*routine);
+    forEachDeclared(module, one);
     part.stamp = module.facts ? module.facts->stamp : 0;
     part.owner = module.facts ? module.facts->symbols : nullptr;
     return isAlone;

@@ -1,5 +1,6 @@
 #include "frontend/query/snapshot.h"
 
+#include "frontend/query/declared.h"
 #include "frontend/sema/names.h"
 
 #include <algorithm>
@@ -7,19 +8,6 @@
 namespace rapid::query {
 
 using namespace sema;
-
-namespace {
-
-template <class F> void forEachDeclared(const Module& module, F&& visit) {
-    for (const TypeSymbol* type : module.types)
-        visit(*type);
-    for (const DataSymbol* data : module.data)
-        visit(*data);
-    for (const RoutineSymbol* routine : module.routines)
-        visit(*routine);
-}
-
-} // namespace
 
 Snapshot::Snapshot(const CheckedProgram& program,
                    std::vector<std::shared_ptr<const SourceFile>> configuration,

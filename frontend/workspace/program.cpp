@@ -26,7 +26,7 @@ void Program::setWarnings(const std::vector<std::string>& warnings) {
 
 void Program::fileChanged(const std::string& path) {
     if (modules_.contains(path))
-        changed_[path] = true;
+        changed_.insert(path);
     else if (others_.contains(path))
         stale_ = true;
 }
@@ -88,7 +88,7 @@ void Program::listFiles() {
 
 // Several changes of one file count once; a file that vanished, or is encrypted now, changes the list of files.
 void Program::takeChanges() {
-    for (const auto& [path, yes] : std::exchange(changed_, {})) {
+    for (const std::string& path : std::exchange(changed_, {})) {
         std::string bytes;
         if (!project::readText(&texts_, path, bytes).empty()) return load();
         const auto file = std::make_shared<const SourceFile>(path, std::move(bytes));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,7 +89,7 @@ class Program {
     double judgeMilliseconds_ = 0;                                   ///< what the last look took
     std::map<std::string, std::shared_ptr<const SourceFile>, std::less<>> modules_; ///< by path
     std::map<std::string, std::string> others_; ///< configurations, settings ... by path
-    std::map<std::string, bool> changed_;       ///< paths of modules
+    std::set<std::string> changed_;             ///< paths of modules
     uint64_t generation_ = 0;
     bool stale_ = true;
     bool isFolder_ = false;

@@ -71,6 +71,11 @@ std::shared_ptr<const SourceFile> Workspace::read(const std::string& path) const
     return std::make_shared<const SourceFile>(path, std::move(bytes));
 }
 
+bool Workspace::isRead(const std::string& path) const {
+    return std::any_of(programs_.begin(), programs_.end(),
+                       [&](const auto& program) { return program->reads(path); });
+}
+
 bool Workspace::isInFolders(const std::string& path) const {
     return std::any_of(folders_.begin(), folders_.end(),
                        [&](const std::string& folder) { return liesIn(path, folder); });
@@ -93,10 +98,8 @@ void Workspace::noteChange(const std::string& path, bool cameOrVanished) {
 }
 
 void Workspace::setText(const std::string& path, std::string text) {
-    const bool known = std::any_of(programs_.begin(), programs_.end(),
-                                   [&](const auto& program) { return program->reads(path); });
     std::error_code ignored;
-    const bool fresh = !isOpen(path) && !known && !fs::exists(path, ignored);
+    const bool fresh = !isOpen(path) && !isRead(path) && !fs::exists(path, ignored);
     texts_.set(path, std::move(text));
     noteChange(path, fresh);
 }
@@ -113,8 +116,7 @@ void Workspace::dropText(const std::string& path) {
 
 void Workspace::fileChanged(const std::string& path) {
     std::error_code ignored;
-    const bool known = std::any_of(programs_.begin(), programs_.end(),
-                                   [&](const auto& program) { return program->reads(path); });
+    const bool known = isRead(path);
     const bool exists = fs::exists(path, ignored) || isOpen(path);
     if (project::isFolder(path) ||
         (!exists && !project::isModule(path) && !known)) { // a folder came or vanished

@@ -57,6 +57,7 @@ class Workspace {
     Program* make(const std::string& root);
     Program* rooted(const std::string& root);
     std::string rootFor(const std::string& path) const;
+    bool isRead(const std::string& path) const;
     bool isInFolders(const std::string& path) const;
     void noteChange(const std::string& path, bool cameOrVanished);
 

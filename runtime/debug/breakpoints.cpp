@@ -47,7 +47,7 @@ Breakpoint Breakpoints::addLine(std::string where, uint32_t line,
     Breakpoint& made = all_.emplace_back();
     made.id = ++lastId_;
     made.file = std::move(where);
-    made.line = line;
+    made.line = std::max(line, 1U); // 0 is that of breakpoints at routines
     made.covers = std::move(covers);
     made.accepts = std::move(accepts);
     find(made);
@@ -67,7 +67,7 @@ Breakpoint Breakpoints::addRoutine(std::string name, BreakCondition accepts) {
         return sameName(routine.module, trimmed(text.substr(0, colon))) &&
                sameName(routine.name, trimmed(text.substr(colon + 1)));
     };
-    findRoutine(made);
+    find(made);
     marks_.clear();
     return made;
 }
@@ -88,7 +88,28 @@ bool Breakpoints::remove(int id) {
     return std::erase_if(all_, [id](const Breakpoint& b) { return b.id == id; }) > 0 || data;
 }
 
-/// The nearest statement at or below the line that can be stopped at.
+namespace {
+
+void takeNearest(Breakpoint& breakpoint, const RoutineDesc& routine) {
+    for (uint32_t s = 0; s < routine.statementCount; ++s) {
+        const StmtDesc& statement = routine.statements[s];
+        if (statement.canStart == 0 || statement.line < breakpoint.line) continue;
+        if (breakpoint.actualLine != 0 && statement.line >= breakpoint.actualLine) continue;
+        breakpoint.actualLine = statement.line;
+        breakpoint.routine = &routine;
+    }
+}
+
+void takeFirst(Breakpoint& breakpoint, const RoutineDesc& routine) {
+    const int32_t first = firstStatement(routine);
+    if (first < 0 || breakpoint.routine != nullptr) return;
+    breakpoint.routine = &routine;
+    breakpoint.actualLine = routine.statements[first].line;
+}
+
+} // namespace
+
+/// The nearest statement at or below the line that can be stopped at; without a line, the first one of the routine.
 void Breakpoints::find(Breakpoint& breakpoint) const {
     breakpoint.actualLine = 0;
     breakpoint.routine = nullptr;
@@ -97,28 +118,10 @@ void Breakpoints::find(Breakpoint& breakpoint) const {
         const RoutineDesc& routine = *entry->desc;
         if (!breakpoint.covers(routine)) continue;
         breakpoint.waits = false;
-        for (uint32_t s = 0; s < routine.statementCount; ++s) {
-            const StmtDesc& statement = routine.statements[s];
-            if (statement.canStart == 0 || statement.line < breakpoint.line) continue;
-            if (breakpoint.actualLine != 0 && statement.line >= breakpoint.actualLine) continue;
-            breakpoint.actualLine = statement.line;
-            breakpoint.routine = &routine;
-        }
-    }
-}
-
-void Breakpoints::findRoutine(Breakpoint& breakpoint) const {
-    breakpoint.actualLine = 0;
-    breakpoint.routine = nullptr;
-    breakpoint.waits = true;
-    for (const RoutineEntry* entry : host_.tables().routines()) {
-        const RoutineDesc& routine = *entry->desc;
-        if (!breakpoint.covers(routine)) continue;
-        breakpoint.waits = false;
-        const int32_t first = firstStatement(routine);
-        if (first < 0 || breakpoint.routine != nullptr) continue;
-        breakpoint.routine = &routine;
-        breakpoint.actualLine = routine.statements[first].line;
+        if (breakpoint.line == 0)
+            takeFirst(breakpoint, routine);
+        else
+            takeNearest(breakpoint, routine);
     }
 }
 
@@ -126,10 +129,7 @@ void Breakpoints::memoryChanged() {
     marks_.clear();
     for (Breakpoint& breakpoint : all_) {
         const std::pair before(breakpoint.actualLine, breakpoint.waits);
-        if (breakpoint.line == 0)
-            findRoutine(breakpoint);
-        else
-            find(breakpoint);
+        find(breakpoint);
         if (changed_ && before != std::pair(breakpoint.actualLine, breakpoint.waits)) changed_(breakpoint);
     }
 }

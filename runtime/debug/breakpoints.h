@@ -71,7 +71,6 @@ class Breakpoints {
 
   private:
     void find(Breakpoint& breakpoint) const;
-    void findRoutine(Breakpoint& breakpoint) const;
     std::vector<int> stopsAt(const Breakpoint& breakpoint, const RoutineDesc& routine) const;
     bool entered(const Task& task, const Frame* at);
 

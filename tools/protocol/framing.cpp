@@ -1,30 +1,22 @@
 #include "tools/protocol/framing.h"
 
+#include "config/letter_case.h"
+#include "config/text_util.h"
+
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <utility>
 
 namespace protocol {
+
+using rapid::config::sameName;
+using rapid::config::trimmed;
+
 namespace {
-
-constexpr std::string_view kLengthName = "content-length";
-
-std::string_view trimmed(std::string_view text) {
-    const std::string_view blanks = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-bool isLengthName(std::string_view name) {
-    return std::equal(name.begin(), name.end(), kLengthName.begin(), kLengthName.end(),
-                      [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
-}
 
 bool readNumber(std::string_view text, std::size_t& number) {
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -48,7 +40,7 @@ std::string FrameReader::lengthIn(std::string_view header) {
         if (line.empty()) continue;
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos) return "a header line has no colon";
-        if (!isLengthName(trimmed(line.substr(0, colon)))) continue;
+        if (!sameName(trimmed(line.substr(0, colon)), "Content-Length")) continue;
         if (known || !readNumber(trimmed(line.substr(colon + 1)), length_))
             return "Content-Length is not one number";
         known = true;

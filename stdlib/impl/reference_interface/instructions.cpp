@@ -60,6 +60,19 @@ const lib::ReferenceProperty* propertyOf(TaskCore* task, const ReferenceDevice& 
         fmt::format("the Flag of property \"{}\" forbids to {} it", name, sends ? "send" : "receive"));
 }
 
+/// Orders cyclic transfer of `data`, in one direction, from a connected device or to it.
+template <class Order>
+Status transfer(TaskCore* task, const data::Sensor* sensor, const void* data, float rate, bool sends,
+                Order&& order) {
+    Status status = kOk;
+    Time period = 0;
+    ReferenceDevice* device = connected(task, sensor, status);
+    if (device == nullptr || (status = periodOf(task, rate, period)) != kOk) return status;
+    const lib::ReferenceProperty* property = propertyOf(task, *device, data, sends, status);
+    if (property != nullptr) order(*device, *property, period);
+    return status;
+}
+
 } // namespace
 
 extern "C" {
@@ -84,24 +97,18 @@ Status rt_SiConnect(TaskCore* task, data::Sensor* Sensor, bool NoStop) {
 
 Status rt_SiGetCyclic(TaskCore* task, data::Sensor* Sensor, void* Data, const TypeDesc* DataType,
                       float Rate) {
-    Status status = kOk;
-    Time period = 0;
-    ReferenceDevice* device = connected(task, Sensor, status);
-    if (device == nullptr || (status = periodOf(task, Rate, period)) != kOk) return status;
-    const lib::ReferenceProperty* property = propertyOf(task, *device, Data, false, status);
-    if (property != nullptr) device->receive(*property, Data, *DataType, period);
-    return status;
+    return transfer(task, Sensor, Data, Rate, false,
+                    [&](ReferenceDevice& device, const lib::ReferenceProperty& property, Time period) {
+                        device.receive(property, Data, *DataType, period);
+                    });
 }
 
 Status rt_SiSetCyclic(TaskCore* task, data::Sensor* Sensor, void* Data, const TypeDesc* DataType,
                       float Rate) {
-    Status status = kOk;
-    Time period = 0;
-    ReferenceDevice* device = connected(task, Sensor, status);
-    if (device == nullptr || (status = periodOf(task, Rate, period)) != kOk) return status;
-    const lib::ReferenceProperty* property = propertyOf(task, *device, Data, true, status);
-    if (property != nullptr) device->send(*property, Data, *DataType, period);
-    return status;
+    return transfer(task, Sensor, Data, Rate, true,
+                    [&](ReferenceDevice& device, const lib::ReferenceProperty& property, Time period) {
+                        device.send(property, Data, *DataType, period);
+                    });
 }
 
 /// Without a connection it has no effect.

@@ -124,7 +124,7 @@ void ReferenceDevice::sendNow() {
     const net::Outcome outcome = description_.datagrams ? socket_->sendTo(message, description_.address)
                                                         : socket_->send(message, done);
     if (description_.isSupervised) unanswered_[id_] = now;
-    // A datagram that nobody takes is lost; so is one for which there is no room.
+    // A datagram without a receiver is lost, and so is one without room.
     if (!outcome.ok() && outcome.fault != net::Fault::Again && !description_.datagrams) lose(outcome.why);
 }
 
