@@ -63,7 +63,12 @@ LAYERS = {
     "tools/protocol": ["config"],
     # the language server: what the runtime and the standard library know is handed in
     "tools/lsp": ["config", "frontend/", "tools/protocol"],
-    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol"],
+    # inputs -> program with code in memory
+    "tools/program": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
+    # the long-lived controller
+    "tools/service": ["config", "frontend/", "runtime/", "stdlib", "tools/program"],
+    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",
+              "tools/program", "tools/service"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
 }
 
@@ -88,7 +93,7 @@ RESTRICTED = [
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/io/kept_cyclic_bools.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
-      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",
+      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",
       "tools/rapidc/dap/messages.h", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
