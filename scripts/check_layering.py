@@ -63,14 +63,16 @@ LAYERS = {
     "tools/protocol": ["config"],
     # the language server: what the runtime and the standard library know is handed in
     "tools/lsp": ["config", "frontend/", "tools/protocol"],
-    # the controller that lives long: compiles and runs
-    "tools/service": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
+    # inputs -> program with code in memory
+    "tools/program": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
+    # the long-lived controller
+    "tools/service": ["config", "frontend/", "runtime/", "stdlib", "tools/program"],
     # HTTP, TLS and WebSockets: knows nothing of robots
     "tools/http": ["config"],
     # Robot Web Services: resources, sessions, subscriptions
-    "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "tools/service", "tools/http"],
+    "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",
-              "tools/service", "tools/http", "tools/rws"],
+              "tools/program", "tools/service", "tools/http", "tools/rws"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
 }
 
@@ -97,7 +99,7 @@ RESTRICTED = [
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/io/kept_cyclic_bools.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
-      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",
+      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",
       "tools/rapidc/dap/messages.h", "tools/rws/render_json.cpp", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
