@@ -67,12 +67,13 @@ void OperatorPanel::keepVisible() {
 }
 
 bool OperatorPanel::terminalUsable() const {
+    if (answeredByClients_) return false;
     if (terminal_ >= 0) return terminal_ != 0;
     return isatty(STDIN_FILENO) == 1;
 }
 
 bool OperatorPanel::canAnswer() const {
-    return !answers_.empty() || answersToCome_ > 0 || terminalUsable();
+    return answeredByClients_ || !answers_.empty() || answersToCome_ > 0 || terminalUsable();
 }
 
 /// Keeps a dialog in the list of those that wait, also while its task is being unwound.
@@ -80,11 +81,13 @@ class OperatorPanel::Listed {
   public:
     Listed(OperatorPanel& panel, Asking& asking) : panel_(panel), asking_(asking) {
         panel_.asking_.push_back(&asking);
+        panel_.dialogsChanged();
     }
     ~Listed() {
         std::erase(panel_.asking_, &asking_);
         if (panel_.terminalUser_ == &asking_) panel_.terminalUser_ = nullptr;
         if (!panel_.asking_.empty()) panel_.answered_.notifyAll(); // the next one may use the terminal
+        panel_.dialogsChanged();
     }
     Listed(const Listed&) = delete;
     Listed& operator=(const Listed&) = delete;
@@ -120,6 +123,7 @@ void OperatorPanel::showMessage(PanelMessage message) {
     printText(dialogs_, message.lines, message.image);
     std::fflush(dialogs_);
     message_ = std::move(message);
+    dialogsChanged();
 }
 
 void OperatorPanel::remark(std::string_view text) {
@@ -195,7 +199,9 @@ bool OperatorPanel::endsNow(const Asking& asking, std::optional<DialogEnd>& end)
 /// For the stimulus, a client or a break; returns without an end when the terminal is to be asked.
 Status OperatorPanel::waitForAnswer(Asking& asking, std::optional<DialogEnd>& end) {
     const Dialog& dialog = asking.dialog;
-    const auto hopeless = [&] { return !canEndByItself(dialog) && answersToCome_ == 0 && !terminalUsable(); };
+    const auto hopeless = [&] {
+        return !canEndByItself(dialog) && !answeredByClients_ && answersToCome_ == 0 && !terminalUsable();
+    };
     WaitSpec spec;
     spec.queues = dialog.breakQueues;
     spec.queues.push_back(&answered_);
