@@ -71,8 +71,10 @@ LAYERS = {
     "tools/http": ["config"],
     # Robot Web Services: resources, sessions, subscriptions
     "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program", "tools/service", "tools/http"],
+    # the web page of the controller
+    "tools/pendant": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",
-              "tools/program", "tools/service", "tools/http", "tools/rws"],
+              "tools/program", "tools/service", "tools/http", "tools/rws", "tools/pendant"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
 }
 

@@ -120,6 +120,8 @@ class TaskHost {
     virtual bool cyclesLeft(const Task& task) const = 0;
     /// Another order to start the NORMAL tasks may come.
     virtual bool startToCome() const = 0;
+    /// The cycles of the task are over: it stays with its program pointer at main and can be started again. False: it has ended.
+    virtual bool staysAtMain(Task&) { return false; }
     /// No Of Retry.
     virtual int retryLimit() const = 0;
     /// The system handler has stopped this task.
@@ -412,6 +414,7 @@ class Task : public TaskCore {
     bool runCycle();
     bool endCycle(Unwind how);
     void standAtMain();
+    void haltAtMain();
     Status block();
     void countAgain(Time& deadline, Time span, uint64_t& starts) const;
     Status safepointOnce(Frame* at);

@@ -81,13 +81,11 @@ class OperatorPanel::Listed {
   public:
     Listed(OperatorPanel& panel, Asking& asking) : panel_(panel), asking_(asking) {
         panel_.asking_.push_back(&asking);
-        panel_.dialogsChanged();
     }
     ~Listed() {
         std::erase(panel_.asking_, &asking_);
         if (panel_.terminalUser_ == &asking_) panel_.terminalUser_ = nullptr;
         if (!panel_.asking_.empty()) panel_.answered_.notifyAll(); // the next one may use the terminal
-        panel_.dialogsChanged();
     }
     Listed(const Listed&) = delete;
     Listed& operator=(const Listed&) = delete;
@@ -123,7 +121,6 @@ void OperatorPanel::showMessage(PanelMessage message) {
     printText(dialogs_, message.lines, message.image);
     std::fflush(dialogs_);
     message_ = std::move(message);
-    dialogsChanged();
 }
 
 void OperatorPanel::remark(std::string_view text) {

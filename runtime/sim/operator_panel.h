@@ -71,8 +71,6 @@ class OperatorPanel {
     /// The newest lines shown (at most 100).
     const std::deque<std::string>& display() const { return display_; }
     void setOutput(std::FILE* lines, std::FILE* dialogs) { lines_ = lines, dialogs_ = dialogs; }
-    /// Called when a dialog was opened or has ended, and when a message was shown or removed; it looks and gives no orders.
-    void onDialogs(std::function<void()> listener) { dialogListener_ = std::move(listener); }
     /// People at other clients answer dialogs: the terminal is not asked, and a dialog waits until one of them does.
     void setAnsweredByClients() { answeredByClients_ = true; }
     /// Whether the terminal may be asked (default: stdin is a terminal).
@@ -99,10 +97,7 @@ class OperatorPanel {
 
     /// Shows a message in place of the one before it, or removes it.
     void showMessage(PanelMessage message);
-    void removeMessage() {
-        message_.reset();
-        dialogsChanged();
-    }
+    void removeMessage() { message_.reset(); }
     const std::optional<PanelMessage>& message() const { return message_; }
     /// A line for the operator beside a dialog, such as the reason why an answer is refused.
     void remark(std::string_view text);
@@ -136,9 +131,6 @@ class OperatorPanel {
     bool readTerminal();
     bool isTerminalTurn() const { return answersToCome_ == 0 && terminalUsable(); }
     bool terminalUsable() const;
-    void dialogsChanged() const {
-        if (dialogListener_) dialogListener_();
-    }
 
     EventLog& log_;
     std::FILE* lines_ = stdout;
@@ -148,7 +140,6 @@ class OperatorPanel {
     int terminal_ = -1;
     std::deque<std::string> display_;
     std::function<void(std::string_view)> listener_;
-    std::function<void()> dialogListener_;
     bool answeredByClients_ = false;
     std::deque<std::string> answers_;
     std::deque<Asking*> asking_;
