@@ -104,8 +104,8 @@ Reply EventLogPages::list(const Request& request) const {
         while (skipped < all.size() && all[skipped]->number <= *number)
             ++skipped;
     const std::size_t total = all.size() - skipped;
-    Page page;
-    if (const auto failure = readPage(request, total, kMostOnPage, page))
+    ListPage page;
+    if (const auto failure = readListPage(request, total, kMostOnPage, page))
         return Reply::refuse(failure->code, failure->message);
     Document document;
     document.place = Document::Place::Resources;

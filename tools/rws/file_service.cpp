@@ -74,7 +74,7 @@ Reply refuseFile(const FileResult& result) {
     return Reply::refuse(ReturnCode::Rejected, result.text);
 }
 
-std::string volumePath(std::string_view text) {
+std::string pathInVolume(std::string_view text) {
     while (text.starts_with('/'))
         text.remove_prefix(1);
     if (beginsWithName(text, "fileservice/")) text.remove_prefix(std::string_view("fileservice/").size());
@@ -108,8 +108,8 @@ Reply FileService::get(const Request& request) const {
     }
     std::vector<FileEntry> entries;
     if (const FileResult listed = volumes_.list(path, entries); !listed.isDone()) return refuseFile(listed);
-    Page page;
-    if (const auto failure = readPage(request, entries.size(), kMostOnPage, page))
+    ListPage page;
+    if (const auto failure = readListPage(request, entries.size(), kMostOnPage, page))
         return Reply::refuse(failure->code, failure->message);
     Document document;
     document.place = Document::Place::Resources;

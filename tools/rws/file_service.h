@@ -30,6 +30,6 @@ class FileService {
 /// The reply to a request whose work on files failed.
 Reply refuseFile(const service::FileResult& result);
 /// "$HOME/a" of "/fileservice/$HOME/a" or "/fileservice/HOME/a" or "$HOME/a".
-std::string volumePath(std::string_view text);
+std::string pathInVolume(std::string_view text);
 
 } // namespace rapidc::rws

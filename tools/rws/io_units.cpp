@@ -34,8 +34,8 @@ void IoUnits::describeNetwork(const std::string& name, Entry& entry) const {
 
 Reply IoUnits::networks(const Request& request) const {
     const std::vector<std::string> names = devices().networkNames();
-    Page page;
-    if (const auto failure = readPage(request, names.size(), kMostOnPage, page))
+    ListPage page;
+    if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
         return Reply::refuse(failure->code, failure->message);
     Document document;
     document.place = Document::Place::Resources;
@@ -95,8 +95,8 @@ Reply IoUnits::listDevices(const Request& request) const {
     const std::string network = request.query.text("network");
     for (std::string& name : devices().deviceNames())
         if (network.empty() || sameName(devices().networkOf(name), network)) names.push_back(std::move(name));
-    Page page;
-    if (const auto failure = readPage(request, names.size(), kMostOnPage, page))
+    ListPage page;
+    if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
         return Reply::refuse(failure->code, failure->message);
     Document document;
     document.place = Document::Place::Resources;

@@ -88,7 +88,7 @@ std::string escapedSegment(std::string_view segment) {
     return escaped;
 }
 
-std::optional<Failure> readPage(const Request& request, std::size_t total, std::size_t most, Page& page) {
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page) {
     const std::string startText = request.query.text("start"), limitText = request.query.text("limit");
     const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
     const auto limit = limitText.empty() ? std::optional(most) : countIn(limitText);

@@ -26,13 +26,13 @@ std::string shown(double value);
 std::string shownExactly(double value);
 
 /// A part of a list: ?start= (number of the first one, from 0) and ?limit=.
-struct Page {
+struct ListPage {
     std::size_t begin = 0, end = 0; ///< of the entries
     std::string next;               ///< href of the next page; "" = none
 };
 /// The page that a request asks for, of a list of `total` entries. Never more than `most` entries; a limit of 0 and a start that
 /// is not a number are failures.
-std::optional<Failure> readPage(const Request& request, std::size_t total, std::size_t most, Page& page);
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page);
 
 /// The value of a field of the form or, when it has none of this name, of the query.
 std::string fieldOf(const Request& request, std::string_view name);

@@ -84,8 +84,8 @@ std::optional<Failure> Signals::find(const Request& request, rt::SignalId& signa
 }
 
 Reply Signals::list(const Request& request, const std::vector<rt::SignalId>& signals) const {
-    Page page;
-    if (const auto failure = readPage(request, signals.size(), kMostOnPage, page)) return fail(*failure);
+    ListPage page;
+    if (const auto failure = readListPage(request, signals.size(), kMostOnPage, page)) return fail(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
