@@ -66,11 +66,11 @@ LAYERS = {
     # inputs -> program with code in memory
     "tools/program": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
     # the long-lived controller
-    "tools/service": ["config", "frontend/", "runtime/", "stdlib", "tools/program"],
+    "tools/service": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program"],
     # HTTP, TLS and WebSockets: knows nothing of robots
     "tools/http": ["config"],
     # Robot Web Services: resources, sessions, subscriptions
-    "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
+    "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program", "tools/service", "tools/http"],
     # the web page of the controller
     "tools/pendant": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",

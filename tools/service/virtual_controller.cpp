@@ -69,7 +69,7 @@ rt::ExitStatus VirtualController::makeCore(const Succession& how) {
     rt::RunOptions options = settings_.options;
     options.configFiles.clear(); // they are in the program already
     core_ = std::make_unique<rt::Controller>(options);
-    core_->panel().setTerminal(false);
+    core_->panel().setAnsweredByClients();
     core_->panel().setOutput(stderr, stderr); // standard output belongs to the addresses
     program_->equip(*core_);
     core_->setInbox(&inbox_);
