@@ -70,15 +70,12 @@ const rapid::syntax::ModuleDecl* headerOf(const rapid::syntax::SyntaxTree& tree,
     return nullptr;
 }
 
-/// Up to the end of the header, so that long modules cost nothing.
+/// Only the beginning is read, so that long modules cost nothing.
 std::unique_ptr<rapid::syntax::SyntaxTree> readHeader(std::string_view text) {
-    constexpr std::size_t kMost = 4096; // comments before the header may be long; the rest does not matter
-    std::string part(text.substr(0, kMost));
-    const std::size_t open = part.find('(');
-    if (const std::size_t close = part.find(')'); open != std::string::npos && close != std::string::npos)
-        part = part.substr(0, close + 1) + "\nENDMODULE\n";
+    constexpr std::size_t kMost = 4096; // comments before the header may be long
     rapid::diag::Sink ignored;
-    return rapid::syntax::parse(std::make_shared<const rapid::SourceFile>("header.modx", part), ignored);
+    auto source = std::make_shared<const rapid::SourceFile>("header.modx", std::string(text.substr(0, kMost)));
+    return rapid::syntax::parse(std::move(source), ignored);
 }
 
 } // namespace

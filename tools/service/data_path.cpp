@@ -51,7 +51,8 @@ const rt::GlobalDesc* findGlobal(const rt::ProgramTables& tables, const DataPath
 rt::DebugVariable findLocal(rt::Controller& core, const rt::Task& task, const DataPath& path) {
     const rt::Debugger& debugger = core.debugger();
     for (const rt::DebugFrame& frame : debugger.frames(task)) {
-        if (!sameName(frame.place.routine, path.routine) || !sameName(frame.place.module, path.module)) continue;
+        if (!sameName(frame.place.routine, path.routine) || !sameName(frame.place.module, path.module))
+            continue;
         for (const rt::DebugVariable& local : debugger.locals(frame))
             if (sameName(local.name, path.name)) return local;
     }
@@ -70,14 +71,16 @@ rt::DebugVariable findVariable(VirtualController& controller, const DataPath& pa
     }
     if (!path.routine.empty()) {
         const rt::DebugVariable local = task != nullptr ? findLocal(core, *task, path) : rt::DebugVariable{};
-        if (local.type == nullptr) problem = fmt::format("routine {} does not execute, or has no such data", path.routine);
+        if (local.type == nullptr)
+            problem = fmt::format("routine {} does not execute, or has no such data", path.routine);
         return local;
     }
     const rt::ProgramTables& tables = core.tables();
     for (const auto& each : core.tasks()) { // without a task: shared data, which each of them sees
         if (task != nullptr && each.get() != task) continue;
         const rt::GlobalDesc* global = findGlobal(tables, path, static_cast<int32_t>(each->index()));
-        const bool isShared = global != nullptr && (global->task < 0 || (global->flags & rt::kDataPredefined) != 0);
+        const bool isShared =
+            global != nullptr && (global->task < 0 || (global->flags & rt::kDataPredefined) != 0);
         if (global != nullptr && (task != nullptr || isShared)) return rt::dataOf(*global);
     }
     problem = fmt::format("there are no data {}", path.url());
@@ -170,8 +173,8 @@ class PartWalk {
     FoundData& at_;
 };
 
-void writeValue(const char* data, const rt::TypeDesc& type, const int32_t* dim, const int32_t* end, std::string& out,
-                bool& hasText) {
+void writeValue(const char* data, const rt::TypeDesc& type, const int32_t* dim, const int32_t* end,
+                std::string& out, bool& hasText) {
     if (dim == end) {
         std::string text;
         hasText = rt::valueToSource(data, type, text) && hasText;
@@ -211,7 +214,8 @@ bool elementsOf(std::string_view text, std::vector<std::string_view>& elements) 
     return depth == 0 && !inString;
 }
 
-bool readValue(std::string_view text, char* data, const rt::TypeDesc& type, const int32_t* dim, const int32_t* end) {
+bool readValue(std::string_view text, char* data, const rt::TypeDesc& type, const int32_t* dim,
+               const int32_t* end) {
     if (dim == end) return rt::sourceToValue(rt::trimmed(text), data, type);
     std::vector<std::string_view> elements;
     if (!elementsOf(text, elements) || elements.size() != static_cast<std::size_t>(*dim)) return false;
@@ -296,8 +300,8 @@ std::optional<std::string> valueOf(const FoundData& found) {
     writeValue(static_cast<const char*>(found.data), *found.type, found.dims.data(),
                found.dims.data() + found.dims.size(), text, hasText);
     // a number that is not finite has no literal, but people may see it
-    const bool isOpaque = found.type->kind == rt::DescKind::Handle || found.type->kind == rt::DescKind::Bytes ||
-                          found.type->kind == rt::DescKind::Other;
+    const bool isOpaque = found.type->kind == rt::DescKind::Handle ||
+                          found.type->kind == rt::DescKind::Bytes || found.type->kind == rt::DescKind::Other;
     return isOpaque ? std::nullopt : std::optional(text);
 }
 
@@ -317,8 +321,9 @@ std::string checkValue(const rt::TypeDesc& type, const std::vector<int32_t>& dim
     shape.type = &type;
     shape.dims = dims;
     std::vector<char> bytes(shape.bytes());
-    return readAll(text, bytes, type, dims) ? std::string()
-                                            : fmt::format("the text is not a value of type {}", typeText(type, dims));
+    return readAll(text, bytes, type, dims)
+               ? std::string()
+               : fmt::format("the text is not a value of type {}", typeText(type, dims));
 }
 
 } // namespace rapidc::service

@@ -10,7 +10,8 @@ namespace rapidc::service {
 DataWatches::DataWatches(VirtualController& controller) : controller_(controller) {
     Observer observer;
     observer.changed = [this](Change change, const rt::Task*) {
-        if (change == Change::Generation || change == Change::Modules) findAgain(change == Change::Generation);
+        if (change == Change::Generation || change == Change::Modules)
+            findAgain(change == Change::Generation);
     };
     observer_ = controller_.observers().add(std::move(observer));
 }

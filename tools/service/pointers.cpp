@@ -59,7 +59,8 @@ std::optional<PointerPlace> programPointer(VirtualController& controller, const 
     const auto frames = controller.core().debugger().frames(task);
     for (const rt::DebugFrame& at : frames) {
         const rt::Frame* frame = at.frame;
-        if (frame == nullptr || frame->routine->isBuiltin != 0 || frame->routine->statementCount == 0) continue;
+        if (frame == nullptr || frame->routine->isBuiltin != 0 || frame->routine->statementCount == 0)
+            continue;
         const bool isDone = task.standing() == rt::Standing::AfterStop && frame == task.frame;
         const int32_t statement = isDone ? following(*frame->routine, frame->statement) : frame->statement;
         PointerPlace place = placeOf(*frame->routine, statement);

@@ -15,7 +15,8 @@ class VirtualController;
 
 struct PointerPlace {
     std::string module, routine;
-    uint32_t beginLine = 0, beginColumn = 0, endLine = 0, endColumn = 0; ///< from 1; the end is the last character
+    uint32_t beginLine = 0, beginColumn = 0, endLine = 0,
+             endColumn = 0;    ///< from 1; the end is the last character
     std::string executionType; ///< "Normal", "Interrupt", "Event routine"
 };
 

@@ -54,7 +54,8 @@ Declared declaredBy(const syntax::Decl& decl) {
     switch (decl.kind) {
     case syntax::NodeKind::Record: {
         const auto& record = syntax::as<syntax::RecordDecl>(decl);
-        return {record.name, record.components.empty() ? SymbolType::Atomic : SymbolType::Record, record.local};
+        return {record.name, record.components.empty() ? SymbolType::Atomic : SymbolType::Record,
+                record.local};
     }
     case syntax::NodeKind::Alias: {
         const auto& alias = syntax::as<syntax::AliasDecl>(decl);
@@ -100,7 +101,8 @@ std::vector<Symbols::ModuleView> Symbols::modulesOf(const rt::Task& task) {
     std::vector<ModuleView> views;
     const auto index = static_cast<int32_t>(task.index());
     const sema::CheckedProgram& program = *controller_.program().compilation().program;
-    const sema::Task* checked = task.index() < program.tasks.size() ? program.tasks[task.index()].get() : nullptr;
+    const sema::Task* checked =
+        task.index() < program.tasks.size() ? program.tasks[task.index()].get() : nullptr;
     for (const rt::LoadedModule& module : controller_.core().tables().modules()) {
         if (module.task >= 0 && module.task != index) continue;
         ModuleView view;
@@ -151,7 +153,8 @@ class Symbols::Reader {
     template <class Wants, class Visit> void declarations(Wants&& wants, Visit&& visit) const {
         for (const syntax::Decl* decl : view_.decl->decls) {
             const Declared declared = declaredBy(*decl);
-            if (declared.name == syntax::kNoToken || !wants(tree_.text(declared.name), declared.type)) continue;
+            if (declared.name == syntax::kNoToken || !wants(tree_.text(declared.name), declared.type))
+                continue;
             switch (decl->kind) {
             case syntax::NodeKind::Record: visit(record(syntax::as<syntax::RecordDecl>(*decl)), *decl); break;
             case syntax::NodeKind::Alias: visit(alias(syntax::as<syntax::AliasDecl>(*decl)), *decl); break;
@@ -164,7 +167,8 @@ class Symbols::Reader {
     }
 
     /// The components of a record, the parameters and data of a routine.
-    template <class Visit> void inside(const syntax::Decl& decl, const std::string& url, Visit&& visit) const {
+    template <class Visit>
+    void inside(const syntax::Decl& decl, const std::string& url, Visit&& visit) const {
         if (decl.kind == syntax::NodeKind::Record) {
             uint32_t number = 0;
             for (const syntax::RecordComponent* component : syntax::as<syntax::RecordDecl>(decl).components) {
@@ -215,7 +219,8 @@ class Symbols::Reader {
     }
 
     SymbolInfo record(const syntax::RecordDecl& decl) const {
-        SymbolInfo info = named(decl, decl.name, decl.components.empty() ? SymbolType::Atomic : SymbolType::Record);
+        SymbolInfo info =
+            named(decl, decl.name, decl.components.empty() ? SymbolType::Atomic : SymbolType::Record);
         info.isLocal = decl.local;
         info.count = static_cast<uint32_t>(decl.components.size());
         return info;
@@ -231,7 +236,8 @@ class Symbols::Reader {
         info.url = block + "/" + info.name;
         info.isLocal = decl.scope == syntax::ScopeWord::Local;
         info.isTaskOnly = decl.scope == syntax::ScopeWord::Task;
-        info.isReadOnly = decl.dataKind == syntax::DataKind::Const || (info.isPredefined && isFixed(info.name));
+        info.isReadOnly =
+            decl.dataKind == syntax::DataKind::Const || (info.isPredefined && isFixed(info.name));
         setType(info, decl.type);
         for (const syntax::Expr* dim : decl.dims)
             info.dims.push_back(literal(*dim));
@@ -267,11 +273,12 @@ class Symbols::Reader {
 
 std::string Symbols::urlOfType(const ModuleView& view, const std::string& name) {
     const auto declares = [&](const ModuleView& module, bool withLocal) {
-        return std::any_of(module.decl->decls.begin(), module.decl->decls.end(), [&](const syntax::Decl* decl) {
-            const Declared declared = declaredBy(*decl);
-            return isType(declared.type) && (withLocal || !declared.isLocal) &&
-                   sameName(module.tree->text(declared.name), name);
-        });
+        return std::any_of(module.decl->decls.begin(), module.decl->decls.end(),
+                           [&](const syntax::Decl* decl) {
+                               const Declared declared = declaredBy(*decl);
+                               return isType(declared.type) && (withLocal || !declared.isLocal) &&
+                                      sameName(module.tree->text(declared.name), name);
+                           });
     };
     if (view.task == nullptr) return "RAPID/" + name;
     std::string& own = typeUrls_[view.url + "/" + rt::lowerCase(name)];
@@ -325,8 +332,9 @@ class Symbols::Collector {
     bool isWanted(SymbolType type) const { return query_.types.empty() || query_.types.contains(type); }
     /// Something that lies in routines and records.
     bool wantsInside() const {
-        return isWanted(SymbolType::Component) || isWanted(SymbolType::Parameter) || isWanted(SymbolType::Variable) ||
-               isWanted(SymbolType::Constant) || isWanted(SymbolType::Persistent);
+        return isWanted(SymbolType::Component) || isWanted(SymbolType::Parameter) ||
+               isWanted(SymbolType::Variable) || isWanted(SymbolType::Constant) ||
+               isWanted(SymbolType::Persistent);
     }
     bool isUsed(const ModuleView& view, const syntax::Decl& decl) const {
         if (!query_.onlyUsed || view.checked == nullptr || view.task != nullptr) return true;
@@ -400,7 +408,8 @@ std::optional<SymbolInfo> Symbols::find(std::string_view url) {
     if (found) return found;
     if (global) return global;
     const bool mayBePredefined =
-        names.size() == 2 || (names.size() == 3 && (sameName(names[1], "BASE") || sameName(names[1], "user")));
+        names.size() == 2 ||
+        (names.size() == 3 && (sameName(names[1], "BASE") || sameName(names[1], "user")));
     return mayBePredefined ? findPredefined(last, {}) : std::nullopt;
 }
 

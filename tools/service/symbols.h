@@ -49,9 +49,9 @@ struct SymbolInfo {
     bool isPredefined = false;
     bool isSystemModule = false; ///< of a module
     bool isUsed = true;
-    uint32_t count = 0;  ///< components of a record, parameters of a routine
-    uint32_t number = 0; ///< of a component or a parameter, from 1
-    bool isRequired = true; ///< of a parameter
+    uint32_t count = 0;           ///< components of a record, parameters of a routine
+    uint32_t number = 0;          ///< of a component or a parameter, from 1
+    bool isRequired = true;       ///< of a parameter
     rapid::LineColumn begin, end; ///< of the declaration; line 1, column 1 for what is predefined
 };
 
@@ -62,14 +62,14 @@ struct SymbolQuery {
         Stack, ///< data of the routine in progress
     };
     View view = View::Block;
-    std::string block;           ///< URL: "RAPID", a task, module, routine or record
-    std::set<SymbolType> types;  ///< empty: any
-    bool recursive = true;       ///< with what is inside the blocks in it
-    bool onlyUsed = false;       ///< without what the program does not use
-    bool skipPredefined = false; ///< without what all tasks share
-    uint32_t frame = 0;          ///< of the call chain, 0 = innermost
-    std::string dataType;        ///< "" = any
-    std::string typeUrl;         ///< "" = any
+    std::string block;                               ///< URL: "RAPID", a task, module, routine or record
+    std::set<SymbolType> types;                      ///< empty: any
+    bool recursive = true;                           ///< with what is inside the blocks in it
+    bool onlyUsed = false;                           ///< without what the program does not use
+    bool skipPredefined = false;                     ///< without what all tasks share
+    uint32_t frame = 0;                              ///< of the call chain, 0 = innermost
+    std::string dataType;                            ///< "" = any
+    std::string typeUrl;                             ///< "" = any
     std::function<bool(const std::string&)> matches; ///< a name; empty: any
 };
 
@@ -109,7 +109,8 @@ class Symbols {
     bool searchStack(const SymbolQuery& query, const rt::Task& task, std::vector<SymbolInfo>& found);
 
     VirtualController& controller_;
-    std::map<std::string, std::string> typeUrls_; ///< of types that other modules declare; during one question
+    std::map<std::string, std::string>
+        typeUrls_;                         ///< of types that other modules declare; during one question
     std::map<std::string, Parsed> parsed_; ///< modules that came while the program runs, by task and name
 };
 

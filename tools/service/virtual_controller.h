@@ -102,6 +102,9 @@ class VirtualController {
     /// refusal. With mistakes in it the program stays as it was.
     Refusal loadModule(rt::Task& task, const std::string& path, const std::string& shown, bool replace);
     Refusal unloadModule(rt::Task& task, const std::string& module);
+    /// Files of modules, on the host, come into memory together, in place of modules of the same names and, with `replace`, of all program
+    /// modules of the task. Its data begin with their initial values, its program pointer is at main.
+    Refusal loadProgram(rt::Task& task, const std::vector<std::string>& files, bool replace);
     /// Replaces the text of a module in memory (not its file).
     Refusal setModuleText(rt::Task& task, const std::string& module, const std::string& text);
     /// The source text of a module in memory; false when there is none.

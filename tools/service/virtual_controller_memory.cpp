@@ -4,6 +4,7 @@
 
 #include "config/letter_case.h"
 #include "config/read_file.h"
+#include "frontend/syntax/parser.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/module_units.h"
 #include "tools/program/program_sources.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 
 namespace rapidc::service {
 
@@ -35,6 +37,22 @@ std::shared_ptr<const rapid::SourceFile> fileOf(const ProgramSources& sources, c
         return own.input.files[i];
     }
     return nullptr;
+}
+
+struct ModuleHead {
+    std::string name;
+    bool isSystem = false;
+};
+
+/// The modules that a file holds.
+std::vector<ModuleHead> headsOf(const rapid::SourceFile& file) {
+    rapid::diag::Sink ignored;
+    const auto tree = rapid::syntax::parse(std::make_shared<const rapid::SourceFile>(file), ignored);
+    std::vector<ModuleHead> heads;
+    for (const rapid::syntax::ModuleDecl* decl : tree->modules)
+        heads.push_back(
+            {std::string(tree->text(decl->name)), (decl->attributes & rapid::syntax::kAttrSysmodule) != 0});
+    return heads;
 }
 
 std::string keyOf(const rt::Task& task, const std::string& module) {
@@ -136,6 +154,38 @@ Refusal VirtualController::unloadModule(rt::Task& task, const std::string& modul
     ModuleEdits edits = edits_;
     edits.remove(task.name(), file->path());
     return replaceProgram(std::move(edits), task, what);
+}
+
+Refusal VirtualController::loadProgram(rt::Task& task, const std::vector<std::string>& files, bool replace) {
+    if (task.index() >= program_->sources().tasks.size()) return "the task has no program of its own";
+    ModuleEdits edits = edits_;
+    std::set<std::string> names; // lower case
+    std::map<std::string, std::string> texts;
+    for (const std::string& file : files) {
+        std::string bytes;
+        const std::string name = fs::path(file).filename().string();
+        std::error_code code;
+        if (fs::file_size(file, code) > kLargestModule || code)
+            return fmt::format("{} cannot be read, or is too large for a module", name);
+        if (const std::string problem = rapid::config::readFile(file, bytes); !problem.empty())
+            return fmt::format("{} cannot be read: {}", name, problem);
+        for (const ModuleHead& head : headsOf(rapid::SourceFile(file, bytes)))
+            names.insert(rapid::config::lowerCase(head.name));
+        texts[file] = std::move(bytes);
+    }
+    for (const auto& source : program_->sources().tasks[task.index()].input.files) {
+        const std::vector<ModuleHead> heads = headsOf(*source);
+        const bool goes = std::any_of(heads.begin(), heads.end(), [&](const ModuleHead& head) {
+            return names.contains(rapid::config::lowerCase(head.name)) || (replace && !head.isSystem);
+        });
+        if (goes) edits.remove(task.name(), source->path());
+    }
+    for (auto& [file, bytes] : texts)
+        edits.set(task.name(), file, std::move(bytes));
+    const std::string what = fmt::format("a program of {} modules has been loaded", files.size());
+    if (Refusal refusal = replaceProgram(std::move(edits), task, what); !refusal.empty()) return refusal;
+    succession_->state.clear();
+    return {};
 }
 
 Refusal VirtualController::setModuleText(rt::Task& task, const std::string& module, const std::string& text) {

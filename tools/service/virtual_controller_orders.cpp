@@ -99,7 +99,10 @@ Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
             refusal = fmt::format("task {} is executing already", one->name());
             continue;
         }
-        switch (mode) {
+        // A task at main is in no routine yet: every step executes the first instruction.
+        const bool begins = one->frame == nullptr && mode != ExecutionMode::Continue &&
+                            mode != ExecutionMode::StepMotion && mode != ExecutionMode::StepBack;
+        switch (begins ? ExecutionMode::StepIn : mode) {
         case ExecutionMode::Continue: refusal = debugger.runAlone(*one); break;
         case ExecutionMode::StepIn: refusal = debugger.stepIn(*one, true); break;
         case ExecutionMode::StepOver:
