@@ -63,7 +63,18 @@ LAYERS = {
     "tools/protocol": ["config"],
     # the language server: what the runtime and the standard library know is handed in
     "tools/lsp": ["config", "frontend/", "tools/protocol"],
-    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol"],
+    # inputs -> program with code in memory
+    "tools/program": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/"],
+    # the long-lived controller
+    "tools/service": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program"],
+    # HTTP, TLS and WebSockets: knows nothing of robots
+    "tools/http": ["config"],
+    # Robot Web Services: resources, sessions, subscriptions
+    "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program", "tools/service", "tools/http"],
+    # the web page of the controller
+    "tools/pendant": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
+    "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",
+              "tools/program", "tools/service", "tools/http", "tools/rws", "tools/pendant"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
 }
 
@@ -72,6 +83,8 @@ LAYERS = {
 RESTRICTED = [
     (re.compile(r"^(llvm|clang|lld)(-c)?/"), ["codegen", "tests"], "LLVM headers belong to codegen"),
     (re.compile(r"^boost/context/"), ["runtime/sched", "tests"], "fibres belong to runtime/sched"),
+    (re.compile(r"^boost/(beast|asio)\b"), ["tools/http"], "sockets are used through the headers of tools/http"),
+    (re.compile(r"^openssl/"), ["tools/http"], "TLS, digests and random numbers belong to tools/http"),
     (re.compile(r"^boost/property_tree/"), ["stdlib/impl/reference_interface/xml_text.cpp"],
      "XML is read through stdlib/impl/reference_interface/xml_text.h"),
     (re.compile(r"^Eigen/"), ["runtime/robot", "runtime/motion", "stdlib/impl", "tests"],
@@ -88,8 +101,8 @@ RESTRICTED = [
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/io/kept_cyclic_bools.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
-      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/rapidc/program_sources.cpp", "tools/rapidc/robots_command.cpp",
-      "tools/rapidc/dap/messages.h", "tools/testing/json_report.cpp", "tests"],
+      "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",
+      "tools/rapidc/dap/messages.h", "tools/rws/render_json.cpp", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^(egm\.pb\.h|google/protobuf/.*)$"), ["stdlib/impl/guided_motion/egm_messages.cpp"],
      "messages of EGM are made and read through stdlib/impl/guided_motion/egm_messages.h"),

@@ -100,6 +100,7 @@ std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment&
     compilation->tasks = std::move(input.tasks);
     configureTasks(*compilation, typesGiven, input.isBackup);
     readTaskSettings(*compilation);
+    if (inputs.adjust) inputs.adjust(compilation->tasks);
     compilation->sharedFiles = std::move(input.sharedFiles);
     compilation->loaded = true;
     return compilation;

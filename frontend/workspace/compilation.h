@@ -7,6 +7,7 @@
 #include "frontend/workspace/environment.h"
 #include "frontend/workspace/signal_uses.h"
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -27,6 +28,8 @@ struct Inputs {
     bool onlyDiagnostics = false;      ///< nothing is lowered: the inside of routines need not be kept
     bool assumeSignals = false; ///< define the signals that the configuration lacks as the program uses them
     const project::OpenTexts* texts = nullptr; ///< count before the files; may be null
+    /// Called with what was read, before it is checked; may change, add and remove files. Empty: nothing is changed.
+    std::function<void(std::vector<sema::TaskInput>&)> adjust;
 };
 
 /// Result of the front end, with everything the later stages need.

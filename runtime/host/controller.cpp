@@ -108,14 +108,9 @@ ExitStatus Controller::run() {
     for (const auto& motion : motions_)
         motion->setCirclePointStop([this](Task& task) { return debugger_.stopInside(task); });
     scheduleStimulus();
-    for (const auto& task : tasks_) {
-        scheduler_.add(*task);
-        // The controller is switched on, the program loaded and started.
-        task->events().owe(SystemEvent::PowerOn);
-        if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
-        task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
-    }
-    if (debugger_.hasClient()) scheduler_.setHold([this] { return debugger_.holds(); });
+    beginTasks();
+    if (debugger_.hasClient() || resident_)
+        scheduler_.setHold([this] { return timeHeld_ || debugger_.holds(); });
     RunEnd end = scheduler_.run([this] { return runOver(); });
     if (end == RunEnd::MaxTime && onlySettles(*this)) { // no part of a program is cut off
         constexpr Time kLongestSettling = kSecond;
@@ -125,12 +120,28 @@ ExitStatus Controller::run() {
     return finish(end);
 }
 
+/// The controller is switched on, the program loaded and started.
+void Controller::beginTasks() {
+    for (const auto& task : tasks_) {
+        const bool waits = isNormal(task) && !programStart_;
+        if (waits) task->stop(StopCause::AtMain);
+        scheduler_.add(*task);
+        if (powersOn_) task->events().owe(SystemEvent::PowerOn);
+        if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
+        if (waits) continue;
+        task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
+    }
+}
+
 bool Controller::runOver() {
     if (StopSignals::received() != 0) return true;
     if (debugger_.poll()) return true;
     systemSignals_.update();
     state_->keepFresh();
     panel_.keepVisible();
+    for (const auto& action : lookActions_)
+        action();
+    if (resident_) return endWanted_;
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->state() == TaskState::Finished) continue;
         const bool stoppedForGood =
@@ -188,7 +199,9 @@ void Controller::reportEnds() {
 
 ExitStatus Controller::finish(RunEnd end) {
     ExitStatus status = stoppedByError() ? ExitStatus::StoppedByError : ExitStatus::Ended;
-    if (const int signal = StopSignals::received(); signal != 0) {
+    if (resident_ && StopSignals::received() == 0) {
+        status = ExitStatus::Ended; // as ordered
+    } else if (const int signal = StopSignals::received(); signal != 0) {
         log_.write(EventId::RunInterrupted, nullptr, {StopSignals::name(signal), whereTasksAre("is")});
         status = ExitStatus::Interrupted;
     } else if (end == RunEnd::Deadlock && programsEnded_ == kNever) {
@@ -204,7 +217,7 @@ ExitStatus Controller::finish(RunEnd end) {
     bool complete = state_->write();
     scheduler_.abandonTasks();
     if (options_.save) complete = saver_->saveAll() && complete;
-    if (status == ExitStatus::Ended) reportEnds();
+    if (status == ExitStatus::Ended && !resident_) reportEnds();
     panel_.flush();
     log_.finish();
     complete = closeOutputs() && complete;
@@ -230,6 +243,7 @@ void Controller::shutDown() {
 }
 
 bool Controller::cyclesLeft(const Task& task) const {
+    if (resident_ && task.kind() == TaskKind::Normal) return !runOnce_;
     if (task.kind() != TaskKind::Normal || options_.cycles == 0) return true;
     return task.cyclesDone() < static_cast<uint64_t>(options_.cycles);
 }
@@ -313,7 +327,8 @@ void Controller::actionStop(SystemEvent event) {
 }
 
 void Controller::orderStartEvent(Task& task) {
-    task.events().owe(task.startsAtMain() ? SystemEvent::Start : SystemEvent::Restart);
+    task.events().owe(task.startsAtMain() && !task.isReentering() ? SystemEvent::Start
+                                                                  : SystemEvent::Restart);
 }
 
 /// Why no task may be started; "" when it may.
@@ -331,7 +346,9 @@ std::string Controller::startRefusal(const Task& task) const {
 void Controller::actionStart() {
     bool any = false;
     for (const auto& task : tasks_) {
-        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished ||
+            !isTaskActive(*task))
+            continue;
         any = true;
         const std::string refusal = startRefusal(*task);
         if (refusal.empty()) continue;
@@ -345,7 +362,9 @@ void Controller::actionStart() {
     backgroundStopped_ = false;
     if (!std::exchange(motorsOn_, true)) log_.write(EventId::MotorsOn, nullptr);
     for (const auto& task : tasks_) {
-        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished ||
+            !isTaskActive(*task))
+            continue;
         const bool atMain = task->stopCause() == StopCause::AtMain;
         log_.write(atMain ? EventId::ProgramStarted : EventId::ProgramRestarted, task.get(), {task->name()});
         debugger_.continuous(*task);
@@ -395,7 +414,9 @@ void Controller::actionStep(bool forward) {
     }
     bool any = false;
     for (const auto& task : tasks_) {
-        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished) continue;
+        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished ||
+            !isTaskActive(*task))
+            continue;
         any = true;
         const std::string problem = debugger_.stepTogether(*task, forward);
         if (!problem.empty() && forward)

@@ -27,6 +27,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -107,6 +108,29 @@ class Controller final : public DebugHost {
     /// Runs to the end.
     ExitStatus run();
 
+    // ---- A controller that serves clients (controller_resident.cpp) -----------------------------------------
+    /// Before prepare(): run() lasts until endRun(). `programStart`: NORMAL tasks start at once; else they wait at main.
+    void setResident(bool programStart, bool motorsOn);
+    /// run() returns soon.
+    void endRun() { endWanted_ = true; }
+    /// Commands of other threads, for the whole run.
+    void setInbox(Inbox* inbox) { scheduler_.setInbox(inbox); }
+    /// While `held` virtual time does not pass.
+    void holdTime(bool held) { timeHeld_ = held; }
+    /// The cycle in progress is the last one; the next start executes one. Of a resident controller.
+    void setRunOnce(bool once) { runOnce_ = once; }
+    /// An inactive NORMAL task is left out of starts.
+    void setTaskActive(const Task& task, bool active);
+    bool isTaskActive(const Task& task) const;
+    void actionMotors(bool on);
+    /// Before prepare(): data, program pointers and arms are as captureState() of another controller gave them. `powerOn`: this is
+    /// a restart, so the POWER_ON routines run.
+    void continueFrom(std::string state, bool powerOn);
+    /// Between the tasks.
+    std::string captureState() const;
+    /// Called between the tasks, often.
+    void onLook(std::function<void()> action) { lookActions_.push_back(std::move(action)); }
+
     /// Called whenever the program of a task begins anew, before its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
 
@@ -147,8 +171,9 @@ class Controller final : public DebugHost {
 
     // ---- TaskHost ----------------------------------------------------------------------------------------------
     bool cyclesLeft(const Task& task) const override;
+    bool staysAtMain(Task& task) override;
     /// The stimulus has a `start` ahead.
-    bool startToCome() const override { return startsToCome_ > 0; }
+    bool startToCome() const override { return startsToCome_ > 0 || resident_; }
     void taskStopped(Task& task) override;
     void cycleLeft(Task& task) override;
     void retried(Task& task) override;
@@ -186,6 +211,7 @@ class Controller final : public DebugHost {
     void scheduleStimulus();
     void perform(const StimulusItem& item);
     bool runOver();
+    void beginTasks();
     bool backgroundAtWork();
     bool isStart(const StimulusItem& item) const;
     void reportEnds();
@@ -217,7 +243,7 @@ class Controller final : public DebugHost {
     int64_t startCalendar_ = 0;
     ServiceTable services_;
     std::vector<std::function<void(Task&)>> resetActions_;
-    std::vector<std::function<void()>> shutDownActions_, sleepActions_;
+    std::vector<std::function<void()>> shutDownActions_, sleepActions_, lookActions_;
     std::vector<std::function<void(Task&, const char*)>> lossActions_;
     const ProgramDesc* program_ = nullptr;
     ProgramTables tables_;
@@ -228,6 +254,10 @@ class Controller final : public DebugHost {
     bool backgroundStopped_ = false; // one with SysStop has, and there was no start since
     bool motorsOn_ = true;
     bool powerOff_ = false;
+    bool resident_ = false, programStart_ = true, runOnce_ = false, timeHeld_ = false, endWanted_ = false;
+    std::set<const Task*> inactive_;
+    std::string earlier_;
+    bool powersOn_ = true;
     Time programsEnded_ = kNever; // when the last NORMAL task came to its end
     std::unique_ptr<ModuleSaver> saver_;
     std::unique_ptr<SavedState> state_;

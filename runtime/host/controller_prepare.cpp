@@ -295,6 +295,8 @@ void Controller::traceMotion() {
 }
 
 ExitStatus Controller::openState() {
+    if (resident_) state_->remember();
+    if (!earlier_.empty()) state_->continueFrom(std::exchange(earlier_, {}));
     if (options_.state.empty()) return ExitStatus::Ended;
     std::string error;
     if (!state_->open(options_.state, error)) {

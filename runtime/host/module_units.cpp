@@ -76,6 +76,45 @@ bool connectUnit(Controller& controller, const ProgramDesc& unit) {
     return all;
 }
 
+/// Some task executes a routine of the module.
+bool executes(const Controller& controller, const LoadedModule& module) {
+    for (const auto& task : controller.tasks()) {
+        if (module.task >= 0 && static_cast<int32_t>(task->index()) != module.task) continue;
+        for (const Frame* at = task->frame; at != nullptr; at = at->caller)
+            if (at->routine != nullptr && sameName(at->routine->module, module.name)) return true;
+    }
+    return false;
+}
+
+std::vector<std::string> persistentsOf(const ProgramDesc& unit) {
+    std::vector<std::string> values;
+    for (uint32_t i = 0; i < unit.globalCount; ++i)
+        if (const GlobalDesc& data = unit.globals[i];
+            data.kind == kGlobalPersistent && (data.flags & kDataPredefined) == 0)
+            values.emplace_back(static_cast<const char*>(data.address), data.type->size);
+    return values;
+}
+
+LoadResult linkUnit(Controller& controller, ModuleLoader& loader, const LoadRequest& request, bool dynamic,
+                    int64_t fileTime) {
+    LoadResult result = loader.make(request, controller.tables());
+    if (result.verdict != LoadResult::Verdict::Made) return result;
+    if (!connectUnit(controller, *result.unit)) {
+        result.verdict = LoadResult::Verdict::Wrong;
+        result.problems = "it names a signal or unit that is not configured";
+        return result;
+    }
+    LoadedModule module;
+    module.name = result.module;
+    module.task = request.taskIndex;
+    module.file = request.path;
+    module.dynamic = dynamic;
+    module.fileTime = fileTime;
+    units(controller).declared[result.unit] = persistentsOf(*result.unit);
+    addModule(controller, *result.unit, std::move(module));
+    return result;
+}
+
 Status Controller::resetUnits(Task& task) {
     const auto index = static_cast<int32_t>(task.index());
     std::vector<std::string> gone;

@@ -97,6 +97,8 @@ bool SavedState::open(const std::string& folder, std::string& error) {
 
 /// The names and initial values of everything that is kept.
 void SavedState::remember() {
+    if (remembered_) return;
+    remembered_ = true;
     const ProgramDesc& program = controller_.program();
     std::map<const void*, bool> known; // shared persistents have several rows
     for (uint32_t i = 0; i < program.globalCount; ++i) {
@@ -270,17 +272,26 @@ bool SavedState::restore(std::string& error) {
         error = fmt::format("{} cannot be read: {}; remove it or name another folder", path(), problem);
         return false;
     }
-    StateImage image;
-    if (const std::string problem = readImage(text, image,
-                                              [this](const std::string& name) -> const robot::ExternalUnit* {
-                                                  const MechanicalUnit* unit = controller_.units().find(name);
-                                                  return unit != nullptr ? &unit->geometry : nullptr;
-                                              });
-        !problem.empty())
-        putAside(problem);
-    else
-        restore(image);
+    if (const std::string problem = restoreText(text); !problem.empty()) putAside(problem);
     return true;
+}
+
+/// "" or why it cannot be understood.
+std::string SavedState::restoreText(const std::string& text) {
+    StateImage image;
+    const auto unitNamed = [this](const std::string& name) -> const robot::ExternalUnit* {
+        const MechanicalUnit* unit = controller_.units().find(name);
+        return unit != nullptr ? &unit->geometry : nullptr;
+    };
+    std::string problem = readImage(text, image, unitNamed);
+    if (problem.empty()) restore(image);
+    return problem;
+}
+
+void SavedState::continueFrom(const std::string& text) {
+    remember();
+    if (const std::string problem = restoreText(text); !problem.empty())
+        controller_.log().write(EventId::StateNotWritten, nullptr, {problem});
 }
 
 void SavedState::restore(StateImage& image) {

@@ -88,6 +88,12 @@ class SavedState {
     /// Takes over what an earlier run left; once tasks and signals exist and before anything runs. A file that cannot be
     /// understood is put aside, with an event; false with a message when one is there and cannot be read.
     bool restore(std::string& error);
+    /// The same from text() of another controller of this process, with or without a folder.
+    void continueFrom(const std::string& text);
+    /// Notes the initial values, before the tasks run.
+    void remember();
+    /// The state as it is now. Every task must be between two instructions.
+    std::string text() const { return writeImage(present()); }
     /// Writes the state as it is now; false when it is not on disk. Every task must stand between two instructions.
     bool write();
     /// To be called often between slices: writes when the last time was a second ago. While a task is where no later
@@ -98,7 +104,7 @@ class SavedState {
     using Rows = std::vector<std::pair<const GlobalDesc*, std::string>>; ///< data with their initial values
     std::string path() const;
     void putAside(const std::string& why);
-    void remember();
+    std::string restoreText(const std::string& text);
     StateImage present() const;
     StateImage::TaskImage presentTask(Task& task) const;
     void write(const StateImage& image);
@@ -118,6 +124,7 @@ class SavedState {
     Controller& controller_;
     std::string folder_;
     int lock_ = -1;
+    bool remembered_ = false;
     bool failed_ = false; // writing failed, which was reported
     Rows persistents_, variables_, interruptNumbers_;
     DataIndex data_;

@@ -211,7 +211,11 @@ RunEnd Scheduler::run(const std::function<bool()>& isOver) {
             runSlice(*task);
             continue;
         }
-        if (events_.empty() && externals_.empty()) {
+        if (events_.empty() && resident_ && !paced()) {
+            waitForCommands();
+            continue;
+        }
+        if (events_.empty() && externals_.empty() && !resident_) {
             if (options_.maxTime != kNever) jumpTo(options_.maxTime);
             return RunEnd::Deadlock;
         }
@@ -222,13 +226,17 @@ RunEnd Scheduler::run(const std::function<bool()>& isOver) {
 /// False: the program continues.
 bool Scheduler::holdStill() {
     if (!holds_()) return false;
+    waitForCommands();
+    return true;
+}
+
+void Scheduler::waitForCommands() {
     if (beforeSleep_) beforeSleep_();
     if (inbox_ != nullptr) {
         inbox_->wait(static_cast<int>(kLongestSleep / kMillisecond)); // signals are looked at in between
         inbox_->run();
     }
     anchorWall();
-    return true;
 }
 
 void Scheduler::abandonTasks() {
@@ -252,9 +260,15 @@ void Scheduler::anchorWall() {
     anchorWall_ = wallNow();
 }
 
+void Scheduler::setPace(bool paced, int percent) {
+    anchorWall();
+    options_.realtime = paced;
+    pacePercent_ = std::max(percent, 1);
+}
+
 /// Virtual time that the wall clock has reached.
 Time Scheduler::wallTime() const {
-    return addTime(anchorVirtual_, wallNow() - anchorWall_);
+    return addTime(anchorVirtual_, (wallNow() - anchorWall_) / 100 * pacePercent_);
 }
 
 void Scheduler::addExternal(ExternalWait& wait) {
@@ -288,7 +302,9 @@ void Scheduler::sleepOutside(Time until) {
     const Time ahead = until == kNever ? kNever : until - wallTime();
     if (ahead > 0 && beforeSleep_) beforeSleep_();
     timespec span{};
-    span.tv_nsec = static_cast<long>(std::clamp<Time>(ahead, 0, kLongestSleep));
+    const Time onWall =
+        ahead < kLongestSleep * pacePercent_ / 100 ? ahead * 100 / pacePercent_ : kLongestSleep;
+    span.tv_nsec = static_cast<long>(std::clamp<Time>(onWall, 0, kLongestSleep));
     const int ready = ppoll(files.data(), files.size(), &span, nullptr);
     moveTo(std::min(until, std::max(now_, wallTime())));
     if (ready <= 0) return;

@@ -49,6 +49,10 @@ class Scheduler {
     /// Virtual time, instructions of the running task included.
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
+    /// Virtual time keeps step with the wall clock (or does not); `percent` of the wall's pace, > 0. At any time.
+    void setPace(bool paced, int percent = 100);
+    /// The run does not end when nothing is pending: it waits for commands.
+    void setResident(bool resident) { resident_ = resident; }
     /// The run may last until then.
     void setMaxTime(Time time) { options_.maxTime = time; }
 
@@ -132,6 +136,7 @@ class Scheduler {
     bool paced() const { return options_.realtime || paceHolds_ > 0 || !externals_.empty(); }
     void sleepOutside(Time until);
     bool holdStill();
+    void waitForCommands();
 
     SchedulerOptions options_;
     Time now_ = 0;
@@ -148,10 +153,12 @@ class Scheduler {
     int64_t debtAtStart_ = 0;
     int64_t sliceUnits_ = 0;
     Time horizon_ = kNever;
+    bool resident_ = false;
     std::vector<ExternalWait*> externals_;
     int paceHolds_ = 0;
     Time anchorVirtual_ = 0;
     int64_t anchorWall_ = 0; // ns of the steady clock
+    int pacePercent_ = 100;
     std::function<void(Time)> timeObserver_;
     std::function<void()> beforeSleep_;
     Inbox* inbox_ = nullptr;

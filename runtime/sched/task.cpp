@@ -109,6 +109,11 @@ bool Task::runCycle() {
     return endCycle(std::exchange(unwinding_, Unwind::None));
 }
 
+void Task::haltAtMain() {
+    stopCause_ = StopCause::AtMain;
+    notePointerMoved(true);
+}
+
 bool Task::endCycle(Unwind how) {
     switch (how) {
     case Unwind::Abandon: return false;
@@ -116,8 +121,7 @@ bool Task::endCycle(Unwind how) {
         needsReset_ = true;
         host_.taskExited(*this);
         if (kind_ != TaskKind::Normal || !host_.startToCome()) return false;
-        stopCause_ = StopCause::AtMain;
-        notePointerMoved(true);
+        haltAtMain();
         events_.owe(SystemEvent::Reset);
         return true;
     case Unwind::ToMain: return true;
@@ -127,7 +131,11 @@ bool Task::endCycle(Unwind how) {
     case Unwind::ExitCycle: host_.cycleLeft(*this); break;
     }
     ++cyclesDone_;
-    if (!host_.cyclesLeft(*this)) return false;
+    if (!host_.cyclesLeft(*this)) {
+        if (!host_.staysAtMain(*this)) return false;
+        haltAtMain();
+        return true;
+    }
     // An empty main costs an instruction as well, so that a cycle without end lets time pass.
     budget -= 1;
     if (budget < 0) (void)safepoint(nullptr);

@@ -120,6 +120,8 @@ class TaskHost {
     virtual bool cyclesLeft(const Task& task) const = 0;
     /// Another order to start the NORMAL tasks may come.
     virtual bool startToCome() const = 0;
+    /// The cycles of the task are over: it stays with its program pointer at main and can be started again. False: it has ended.
+    virtual bool staysAtMain(Task&) { return false; }
     /// No Of Retry.
     virtual int retryLimit() const = 0;
     /// The system handler has stopped this task.
@@ -337,6 +339,8 @@ class Task : public TaskCore {
     bool canResume() const;
     /// Stopped with the program pointer at main: the next start is one from the beginning.
     bool startsAtMain() const { return stopCause_ == StopCause::AtMain && entryOverride_ == nullptr; }
+    /// What is executed when the task begins anew: main, or the procedure that the program pointer was moved to.
+    EntryFunction nextEntry() const { return entryOverride_ != nullptr ? entryOverride_ : desc_.entry; }
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
     /// Program pointer to a procedure without parameters: as moveToMain, but the next start begins there and data
@@ -412,6 +416,7 @@ class Task : public TaskCore {
     bool runCycle();
     bool endCycle(Unwind how);
     void standAtMain();
+    void haltAtMain();
     Status block();
     void countAgain(Time& deadline, Time span, uint64_t& starts) const;
     Status safepointOnce(Frame* at);

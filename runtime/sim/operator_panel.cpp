@@ -67,12 +67,13 @@ void OperatorPanel::keepVisible() {
 }
 
 bool OperatorPanel::terminalUsable() const {
+    if (answeredByClients_) return false;
     if (terminal_ >= 0) return terminal_ != 0;
     return isatty(STDIN_FILENO) == 1;
 }
 
 bool OperatorPanel::canAnswer() const {
-    return !answers_.empty() || answersToCome_ > 0 || terminalUsable();
+    return answeredByClients_ || !answers_.empty() || answersToCome_ > 0 || terminalUsable();
 }
 
 /// Keeps a dialog in the list of those that wait, also while its task is being unwound.
@@ -195,7 +196,9 @@ bool OperatorPanel::endsNow(const Asking& asking, std::optional<DialogEnd>& end)
 /// For the stimulus, a client or a break; returns without an end when the terminal is to be asked.
 Status OperatorPanel::waitForAnswer(Asking& asking, std::optional<DialogEnd>& end) {
     const Dialog& dialog = asking.dialog;
-    const auto hopeless = [&] { return !canEndByItself(dialog) && answersToCome_ == 0 && !terminalUsable(); };
+    const auto hopeless = [&] {
+        return !canEndByItself(dialog) && !answeredByClients_ && answersToCome_ == 0 && !terminalUsable();
+    };
     WaitSpec spec;
     spec.queues = dialog.breakQueues;
     spec.queues.push_back(&answered_);

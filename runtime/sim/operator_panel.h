@@ -26,11 +26,13 @@ enum class DialogKind : uint8_t {
 /// A question to the operator, as data: the terminal shows it as text, other clients may show it as a window.
 struct Dialog {
     DialogKind kind = DialogKind::Text;
+    std::string instruction;          ///< that asks: "UIMsgBox"
     std::string header;               ///< may be empty
     std::string icon;                 ///< "Information", "Warning", "Error"; "" = none
     std::string image;                ///< picture file, as the program names it; "" = none
     std::vector<std::string> lines;   ///< the text
     std::vector<std::string> choices; ///< keys or buttons, numbered from 1; empty entries are not shown
+    std::vector<float> results;       ///< what the program gets for each of the choices; may be empty
     std::vector<std::string> items;   ///< of a list, numbered from 1
     std::vector<std::size_t> visible; ///< numbers of the items that a terminal shows at present
     std::string hint;                 ///< what may be answered, for people at a terminal; may be empty
@@ -69,6 +71,8 @@ class OperatorPanel {
     /// The newest lines shown (at most 100).
     const std::deque<std::string>& display() const { return display_; }
     void setOutput(std::FILE* lines, std::FILE* dialogs) { lines_ = lines, dialogs_ = dialogs; }
+    /// People at other clients answer dialogs: the terminal is not asked, and a dialog waits until one of them does.
+    void setAnsweredByClients() { answeredByClients_ = true; }
     /// Whether the terminal may be asked (default: stdin is a terminal).
     void setTerminal(bool usable) { terminal_ = usable ? 1 : 0; }
     void flush();
@@ -136,6 +140,7 @@ class OperatorPanel {
     int terminal_ = -1;
     std::deque<std::string> display_;
     std::function<void(std::string_view)> listener_;
+    bool answeredByClients_ = false;
     std::deque<std::string> answers_;
     std::deque<Asking*> asking_;
     uint64_t lastNumber_ = 0;

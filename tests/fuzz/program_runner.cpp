@@ -8,7 +8,7 @@
 #include "stdlib/standard_library.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
-#include "tools/rapidc/native_library.h"
+#include "tools/program/native_library.h"
 
 #include <algorithm>
 #include <fcntl.h>

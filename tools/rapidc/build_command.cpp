@@ -2,9 +2,9 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/native_library.h"
-#include "tools/rapidc/pipeline.h"
-#include "tools/rapidc/program_sources.h"
+#include "tools/program/native_library.h"
+#include "tools/program/pipeline.h"
+#include "tools/program/program_sources.h"
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"

@@ -4,7 +4,7 @@
 #include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/missing_report.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include "frontend/project/neighbours.h"
 #include "frontend/source/heap.h"

@@ -21,6 +21,7 @@ void addRenameCommand(rt::CommandLine& line);
 void addSetValueCommand(rt::CommandLine& line);
 void addLspCommand(rt::CommandLine& line);
 void addDapCommand(rt::CommandLine& line);
+void addServeCommand(rt::CommandLine& line);
 void addCompileUnitCommand(rt::CommandLine& line);
 
 } // namespace rapidc

@@ -3,7 +3,7 @@
 #include "runtime/host/command_line.h"
 #include "runtime/host/unit_messages.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/unit_compiler.h"
+#include "tools/program/unit_compiler.h"
 
 #include <fmt/format.h>
 #include <iostream>

@@ -2,8 +2,8 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/module_store.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/module_store.h"
+#include "tools/program/pipeline.h"
 #include "tools/rapidc/text_diff.h"
 
 #include "config/atomic_file.h"

@@ -2,8 +2,8 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/native_library.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/native_library.h"
+#include "tools/program/pipeline.h"
 
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"

@@ -3,8 +3,8 @@
 #include "runtime/host/command_line.h"
 #include "tools/lsp/serve.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/controller_environment.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/controller_environment.h"
+#include "tools/program/pipeline.h"
 
 #include "runtime/host/run_options.h"
 

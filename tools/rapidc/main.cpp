@@ -29,6 +29,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rapidc::addSetValueCommand(line);
     rapidc::addLspCommand(line);
     rapidc::addDapCommand(line);
+    rapidc::addServeCommand(line);
     rapidc::addCompileUnitCommand(line);
     int status = static_cast<int>(rt::ExitStatus::BadUsage);
     try {

@@ -1,7 +1,7 @@
 #pragma once
 // check --missing: everything that a program needs and that is not there, in one table.
 
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include <string>
 

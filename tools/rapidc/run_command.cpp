@@ -1,25 +1,18 @@
 // rapidc run: compiles in memory and runs on the virtual controller.
 
 #include "runtime/host/command_line.h"
+#include "tools/program/loaded_program.h"
+#include "tools/program/pipeline.h"
+#include "tools/program/run_setup.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/line_debugger.h"
-#include "tools/rapidc/module_store.h"
-#include "tools/rapidc/native_library.h"
-#include "tools/rapidc/pipeline.h"
-#include "tools/rapidc/run_setup.h"
-#include "tools/rapidc/unit_compiler.h"
 
 #include "config/temporary.h"
 #include "runtime/host/controller.h"
-#include "runtime/host/module_saver.h"
-#include "runtime/host/module_units.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/run_options.h"
 #include "runtime/host/stop_signals.h"
-#include "runtime/host/unit_loader.h"
 #include "runtime/sim/stimulus.h"
-#include "stdlib/native_table.h"
-#include "stdlib/standard_library.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -68,18 +61,15 @@ std::string conflictOf(const RunSettings& settings, const Compilation& compilati
     return outputConflict(compilation, {}, std::move(guard));
 }
 
-int execute(RunSettings& settings, const Compilation& compilation, const rt::ProgramDesc& program,
-            rt::ModuleLoader& loader) {
+int execute(RunSettings& settings, const LoadedProgram& program) {
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
         rt::Controller controller(settings.options);
-        rt::setUpStandardLibrary(controller);
-        rt::setModuleLoader(controller, &loader);
-        controller.saver().setStore(std::make_unique<SourceStore>());
-        status = controller.prepare(program);
+        program.equip(controller);
+        status = controller.prepare(program.description());
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
-        LineDebugger debugger(controller, compilation);
+        LineDebugger debugger(controller, program.compilation());
         if (settings.interactive) debugger.attach();
         status = controller.run();
         std::fflush(stdout);
@@ -96,7 +86,7 @@ int run(RunSettings& settings) {
     inputs.conveyors = settings.options.conveyors;
     inputs.cameras = settings.options.cameras;
     inputs.requireMain = true;
-    const auto compilation = checkInputs(inputs);
+    auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {
         for (const std::string& problem : compilation->usageErrors)
             fmt::print(stderr, "rapidc run: {}\n", problem);
@@ -114,37 +104,32 @@ int run(RunSettings& settings) {
                         timesStatements(*compilation) ||
                         (!settings.options.state.empty() && !settings.noStepping);
     compilation->callsByName = settings.interactive;
-    ir::Module module;
-    codegen::CodegenOptions options = codegenOptions(!settings.noOptimise);
-    if (settings.inParts) options.partsAbove = 0;
-    options.isExecutedOnce = settings.options.cycles == 1 && !settings.stepping;
-    const bool lowered = !compilation->sink.hasErrors() &&
-                         lowerToIr(*compilation, fs::path(settings.inputs.paths[0]).stem().string(),
-                                   settings.stepping, module, options.partsAbove + 1);
-    printDiagnostics(*compilation);
-    if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
-    runPassesInParts(options, module, irPasses(*compilation, settings.stepping));
-    const std::vector<codegen::NativeSymbol> natives = nativeSymbols();
-    const auto program = codegen::jit(module, options, natives, error);
-    if (!program) {
-        fmt::print(stderr, "rapidc run: {}\n", error);
+    const std::string home = compilation->homeFolder;
+    LoadedProgram program(std::move(compilation));
+    const bool compiled =
+        program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
+                         .stepping = settings.stepping,
+                         .optimise = !settings.noOptimise,
+                         .inParts = settings.inParts,
+                         .executedOnce = settings.options.cycles == 1 && !settings.stepping},
+                        error);
+    printDiagnostics(program.compilation());
+    if (!compiled) {
+        if (!error.empty()) fmt::print(stderr, "rapidc run: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }
     // The configuration is in the program already; reading it twice would define every signal twice.
     settings.options.configFiles.clear();
-    rapid::config::TemporaryFolder home;
-    if (settings.options.home.empty() && !compilation->homeFolder.empty()) {
-        settings.options.home = copyHome(compilation->homeFolder, home, error);
+    rapid::config::TemporaryFolder folder;
+    if (settings.options.home.empty() && !home.empty()) {
+        settings.options.home = copyHome(home, folder, error);
         if (settings.options.home.empty()) {
             fmt::print(stderr, "rapidc run: {}\n", error);
             return static_cast<int>(rt::ExitStatus::BadUsage);
         }
     }
     makeFolders(settings);
-    const auto sources = sourcesOf(*compilation, settings.stepping, options.optimise);
-    SourceCompiler compiler(*sources);
-    rt::UnitLoader loader(compiler, rt::findNativeAddress);
-    return execute(settings, *compilation, *program->program(), loader);
+    return execute(settings, program);
 }
 
 } // namespace

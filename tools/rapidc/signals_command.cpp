@@ -2,7 +2,7 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include "config/atomic_file.h"
 #include "runtime/host/run_options.h"

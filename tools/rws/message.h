@@ -52,7 +52,7 @@ struct Request {
     Fields query, form;
     std::string body;        ///< raw bytes
     std::string contentType; ///< without parameters, lower case
-    std::string base;        ///< "http://127.0.0.1:8080", from the connection, escaped where it came from the client
+    std::string base; ///< "http://127.0.0.1:8080", from the connection, escaped where it came from the client
     std::shared_ptr<const Session> session;
     uint64_t connection = 0; ///< number of the TCP connection (RWS 1.0 ties mastership to it)
     /// Filled by the router from {name} and {name*} of the pattern.

@@ -2,6 +2,7 @@
 // Router: patterns of paths -> handlers. Fixed segments are compared without regard to case.
 
 #include "tools/rws/message.h"
+#include "tools/rws/path_pattern.h"
 
 #include <functional>
 #include <string>
@@ -20,9 +21,11 @@ enum class Where : uint8_t {
 
 struct Route {
     Method method = Method::Get;
-    std::string pattern; ///< "/rw/rapid/tasks/{task}/pcp"; "{path*}" at the end takes all further segments
-    std::string action;  ///< of RWS 1.0: POST pattern?action=NAME; "" = a request without action
-    Handler handler;
+    std::string
+        pattern; ///< "/rw/rapid/tasks/{task}/pcp"; one "{path*}" takes one or more segments: "/fileservice/{path*}"
+    /// pattern?action=NAME; "" = a request without action, and any GET or request of RWS 2.0 whose action has no route of its own.
+    std::string action;
+    Handler handler = {};
     Where where = Where::Controller;
     bool withoutLogin = false;
 };
@@ -42,13 +45,18 @@ class Router {
 
     struct Match {
         const Route* route = nullptr; ///< null: none
-        bool pathKnown = false;       ///< another method has this path: 405
+        bool pathKnown = false;       ///< a route of any method has this path: 405 when the method has none
+        bool methodKnown = false;     ///< the method too, but not the action: 400
     };
     /// The most specific route: fixed segments win over parameters, those over {path*}. Fills request.parameters.
     Match find(Request& request) const;
 
   private:
-    std::vector<Route> routes_[2];
+    struct Compiled {
+        PathPattern pattern;
+        Route route;
+    };
+    std::vector<Compiled> routes_[2]; ///< by dialect, the most specific first
 };
 
 } // namespace rapidc::rws

@@ -19,7 +19,7 @@ namespace rapidc::service {
 
 /// What has changed; the new value is read from the controller.
 enum class Change : uint8_t {
-    MotorState,     ///< PanelState::motors
+    MotorState, ///< PanelState::motors
     OperatingMode,
     SpeedRatio,
     Execution,      ///< running or stopped
@@ -31,7 +31,7 @@ enum class Change : uint8_t {
     Dialog,         ///< an operator dialog was opened or closed, or a message shown
     Display,        ///< a line was written with TPWrite, or the display erased
     Mastership,
-    Generation,     ///< restart or program load: core() is another object now; watches of signals and data continue
+    Generation, ///< restart or program load: core() is another object now; watches of signals and data continue
 };
 
 struct Observer {
@@ -53,6 +53,7 @@ class Observers {
     void event(const rt::Event& event);
     void signal(rt::SignalId id, double value);
     void motion();
+    bool wantsMotion() const;
 
   private:
     template <class Call> void each(const Call& call);

@@ -1,12 +1,22 @@
 #pragma once
 // PanelState: the operator's panel of the controller: motors, mode, speed, cycle (manual 1.20, 2.10).
 
+#include "runtime/host/panel_switches.h"
+
 #include <cstdint>
 
 namespace rapidc::service {
 
-enum class MotorState : uint8_t { Init, On, Off, GuardStop, EmergencyStop, EmergencyStopReset, SystemFailure };
-enum class OperatingMode : uint8_t { Auto, ManualReduced, ManualFull };
+enum class MotorState : uint8_t {
+    Init,
+    On,
+    Off,
+    GuardStop,
+    EmergencyStop,
+    EmergencyStopReset,
+    SystemFailure
+};
+using rt::OperatingMode;
 
 struct PanelState {
     MotorState motors = MotorState::Off;

@@ -1,25 +1,31 @@
 #pragma once
-// VirtualController: a controller that lives long: it loads, starts, stops, restarts, and tells its observers what happens.
-// `rapidc serve` and the web page sit on it. One thread (run) executes RAPID and everything else here; other threads only post().
+// VirtualController: a controller that lives long: it loads, starts, stops, restarts, and notifies its observers. `rapidc serve` and the
+// web page sit on it. One thread (run) executes RAPID and everything else here; other threads only post().
 
 #include "runtime/host/controller.h"
+#include "runtime/host/module_loader.h"
 #include "runtime/sched/inbox.h"
-#include "tools/service/loaded_program.h"
+#include "tools/program/loaded_program.h"
+#include "tools/service/module_edits.h"
 #include "tools/service/observers.h"
 #include "tools/service/panel_state.h"
+#include "tools/service/state_watch.h"
 
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace rapidc::service {
 
 struct Settings {
-    LoadSettings load;        ///< what is compiled
-    rt::RunOptions options;   ///< as of `rapidc run`; home and volumes are folders that exist
+    Inputs inputs;          ///< what is compiled; complete, with the options of `run` that the checker needs
+    rt::RunOptions options; ///< as of `rapidc run`; home and volumes are folders that exist
     bool programStart = true; ///< motors on, and the program runs from main as soon as the controller is up
-    int robotWare = 7;        ///< what clients read: 6, 7 or 8
+    int robotWare = 7;        ///< the version that clients read: 6, 7 or 8
 };
 
 /// "" or why an order is refused; then nothing has changed.
@@ -27,12 +33,18 @@ using Refusal = std::string;
 
 /// How a start order executes (execmode of Robot Web Services).
 enum class ExecutionMode : uint8_t { Continue, StepIn, StepOver, StepOut, StepBack, StepLast, StepMotion };
-enum class StopMode : uint8_t { Stop, Cycle, Instruction, Quick };
+enum class StopMode : uint8_t {
+    Stop,
+    Cycle,       ///< at the end of main
+    Instruction, ///< before the next instruction
+    Quick,
+};
 enum class RestartMode : uint8_t {
     Warm, ///< data and program pointer stay
-    Cold, ///< everything as at the first start, program from its files
+    Cold, ///< everything as at the first start, the program from its files
 };
 
+// Size: the orders of a controller in one place, so that every client finds the same ones.
 class VirtualController {
   public:
     explicit VirtualController(Settings settings);
@@ -42,7 +54,7 @@ class VirtualController {
 
     /// Compiles and prepares; messages go to stderr. Ended when run() may follow.
     rt::ExitStatus open();
-    /// Executes until shutDown(); the thread that calls it is the controller's thread.
+    /// Executes until shutDown() or a signal; the thread that calls it is the controller's thread.
     rt::ExitStatus run();
     /// From any thread: executes `command` on the controller's thread between the tasks. Dropped after the end of run().
     void post(std::function<void()> command);
@@ -50,48 +62,59 @@ class VirtualController {
     void shutDown();
 
     // ---- Everything below: on the controller's thread only -------------------------------------------------
-    /// The controller of now. A restart or a program load replaces it: never keep a reference across commands.
+    /// The controller of now. A restart or a change of compiled modules replaces it: never keep a reference across commands.
     rt::Controller& core() { return *core_; }
     const LoadedProgram& program() const { return *program_; }
     const Settings& settings() const { return settings_; }
     Observers& observers() { return observers_; }
+    /// The folder of the host that a volume is, e.g. "HOME"; "" when there is none of this name.
+    std::string folderOf(const std::string& volume);
 
     // ---- Panel -----------------------------------------------------------------------------------------------
     const PanelState& panel() const { return panel_; }
     Refusal setMotors(bool on);
+    /// The motors go off when the mode changes.
     Refusal setMode(OperatingMode mode);
     /// 0 to 100 %.
     Refusal setSpeedRatio(int percent);
     Refusal setRunOnce(bool once);
-    /// The chain of emergency stop buttons: open = true presses one.
-    Refusal setEmergencyStop(bool open);
+    /// The emergency stop button: pressed or released. After its release the motors are off until setMotors().
+    void pressEmergencyStop(bool pressed);
+    /// A safeguard: open or closed.
+    void openSafeguard(bool open);
 
     // ---- Execution -------------------------------------------------------------------------------------------
+    /// A NORMAL task executes.
     bool isRunning() const;
-    /// `task`: steps only that one; null: all NORMAL tasks.
+    /// `task`: that one alone; null: all active NORMAL tasks.
     Refusal start(ExecutionMode mode, rt::Task* task = nullptr);
     Refusal stop(StopMode mode);
     /// Program pointer to main in all NORMAL tasks.
     Refusal resetPointers();
     Refusal pointerToRoutine(rt::Task& task, const std::string& module, const std::string& routine);
+    /// To the instruction that begins in that line; `line` from 1. Takes effect within some instructions' time.
     Refusal pointerToLine(rt::Task& task, const std::string& module, uint32_t line);
-    /// Inactive NORMAL tasks are left out of a start.
     Refusal setTaskActive(rt::Task& task, bool active);
-    bool isTaskActive(const rt::Task& task) const;
+    bool isTaskActive(const rt::Task& task) const { return core_->isTaskActive(task); }
 
-    // ---- Program memory --------------------------------------------------------------------------------------
-    /// `path`: on the host. The program stays as it was when something is wrong.
+    // ---- Program memory; the NORMAL tasks must be stopped ------------------------------------------------------
+    /// `path`: on the host; `shown`: as clients name it. A module of the same name is replaced, or with `replace` false it is a
+    /// refusal. With mistakes in it the program stays as it was.
     Refusal loadModule(rt::Task& task, const std::string& path, const std::string& shown, bool replace);
     Refusal unloadModule(rt::Task& task, const std::string& module);
-    /// Replaces the text of a loaded module.
+    /// Files of modules, on the host, come into memory together, in place of modules of the same names and, with `replace`, of all program
+    /// modules of the task. Its data begin with their initial values, its program pointer is at main.
+    Refusal loadProgram(rt::Task& task, const std::vector<std::string>& files, bool replace);
+    /// Replaces the text of a module in memory (not its file).
     Refusal setModuleText(rt::Task& task, const std::string& module, const std::string& text);
+    /// The source text of a module in memory; false when there is none.
+    bool moduleText(const rt::Task& task, const std::string& module, std::string& text) const;
     /// Counts every change of the modules of the task.
     uint64_t structuralChanges(const rt::Task& task) const;
 
     // ---- The controller itself -------------------------------------------------------------------------------
+    /// Takes effect after the command in progress; commands posted later wait for the new controller.
     Refusal restart(RestartMode mode);
-    /// Writes a backup into a folder that does not exist yet; a folder is complete or absent.
-    Refusal backup(const std::string& folder);
 
     // ---- Virtual time ----------------------------------------------------------------------------------------
     /// Per cent of the wall clock's pace; 0: as fast as possible.
@@ -101,14 +124,54 @@ class VirtualController {
     bool isTimeRunning() const { return timeRunning_; }
 
   private:
+    /// What replaces the present controller.
+    struct Succession {
+        std::unique_ptr<LoadedProgram> program; ///< null: the same
+        std::string state;                      ///< "" = everything begins anew
+        std::map<std::string, double> signals;  ///< values that stay
+        bool powerOn = true;
+        bool programStart = false, motorsOn = false;
+    };
+    std::unique_ptr<LoadedProgram> compile(const ModuleEdits& edits, std::string& problems,
+                                           rt::ExitStatus& status);
+    rt::ExitStatus makeCore(const Succession& how);
+    void observe();
+    void look();
+    void execute(const std::function<void()>& command);
+    rt::ExitStatus succeed();
+    Refusal replaceProgram(ModuleEdits edits, const rt::Task& task, const std::string& what);
+    Refusal link(rt::Task& task, const rt::LoadRequest& request, const rt::LoadedModule* before,
+                 int64_t fileTime);
+    void leaveModule(const rt::LoadedModule& module);
+    void noteModules(const rt::Task& task, const std::string& what);
+    Refusal programStopped(const char* order) const;
+    void applyPanel();
+    void carryOutCursor();
+    void everyFourMilliseconds();
+
     Settings settings_;
     rt::Inbox inbox_;
     Observers observers_;
     PanelState panel_;
+    StateWatch watch_{*this};
+    ModuleEdits edits_;
     std::unique_ptr<LoadedProgram> program_;
     std::unique_ptr<rt::Controller> core_;
+    std::unique_ptr<Succession> succession_;
+    std::deque<std::function<void()>> postponed_; ///< commands for the next controller
+    std::map<std::string, uint64_t> changes_;     ///< of modules, by task
+    std::map<std::string, std::string> texts_;    ///< of modules that are not compiled into the program
+    std::set<std::string> inactive_;              ///< tasks
+    struct Cursor {
+        std::string task, module;
+        uint32_t line = 0;
+    };
+    std::optional<Cursor> cursor_; ///< where the program pointer goes as soon as its routine has been entered
+    bool cycleStop_ = false;
+    bool safeguardOpen_ = false, emergencyStop_ = false;
     int pace_ = 100;
     bool timeRunning_ = true;
+    bool ends_ = false;
 };
 
 } // namespace rapidc::service

@@ -43,25 +43,6 @@ bool hostPath(TaskCore* task, const String& directory, const String* file, std::
                            : volumes.resolve(directory.view(), path);
 }
 
-/// Some task executes a routine of the module.
-bool executes(const Controller& controller, const LoadedModule& module) {
-    for (const auto& task : controller.tasks()) {
-        if (module.task >= 0 && static_cast<int32_t>(task->index()) != module.task) continue;
-        for (const Frame* at = task->frame; at != nullptr; at = at->caller)
-            if (at->routine != nullptr && sameName(at->routine->module, module.name)) return true;
-    }
-    return false;
-}
-
-std::vector<std::string> persistentsOf(const ProgramDesc& unit) {
-    std::vector<std::string> values;
-    for (uint32_t i = 0; i < unit.globalCount; ++i)
-        if (const GlobalDesc& data = unit.globals[i];
-            data.kind == kGlobalPersistent && (data.flags & kDataPredefined) == 0)
-            values.emplace_back(static_cast<const char*>(data.address), data.type->size);
-    return values;
-}
-
 bool isChanged(Controller& controller, const LoadedModule& module) {
     return persistentsOf(*module.unit) != units(controller).declared[module.unit];
 }
@@ -143,8 +124,8 @@ Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool che
     if (loader == nullptr)
         return fail(task, err::ERR_IOERROR,
                     fmt::format("{} cannot be loaded: there is no compiler for it", file.shown));
-    const LoadResult result =
-        loader->make({owner.name(), index, file.path, file.shown, file.bytes}, controller.tables());
+    const LoadResult result = linkUnit(
+        controller, *loader, {owner.name(), index, file.path, file.shown, file.bytes}, dynamic, file.time);
     if (result.verdict == LoadResult::Verdict::Loaded)
         return fail(task, err::ERR_LOADED,
                     fmt::format("module {} of {} is loaded already", result.module, file.shown));
@@ -156,17 +137,6 @@ Status linkModule(TaskCore* task, const ModuleFile& file, bool dynamic, bool che
                     fmt::format("{} cannot be loaded: {}", file.shown, result.problems));
     if (result.verdict == LoadResult::Verdict::Wrong)
         return fail(task, err::ERR_SYNTAX, fmt::format("{} has errors:\n{}", file.shown, result.problems));
-    if (!connectUnit(controller, *result.unit))
-        return fail(task, err::ERR_SYNTAX,
-                    fmt::format("{} names a signal or unit that is not configured", file.shown));
-    LoadedModule module;
-    module.name = result.module;
-    module.task = index;
-    module.file = file.path;
-    module.dynamic = dynamic;
-    module.fileTime = file.time;
-    units(controller).declared[result.unit] = persistentsOf(*result.unit);
-    addModule(controller, *result.unit, std::move(module));
     const Status status = checkReferences ? checkReferencesOf(task) : kOk;
     if (status != kOk) removeModule(controller, index, result.module);
     return status;
@@ -232,7 +202,7 @@ Status rt_EraseModule(TaskCore* task, const String* ModuleName) {
     const LoadedModule* module = controller.tables().findModule(index, ModuleName->view());
     if (module == nullptr)
         return lib::fail(task, err::ERR_MODULE, fmt::format("there is no module {}", ModuleName->view()));
-    if (lib::executes(controller, *module))
+    if (executes(controller, *module))
         return lib::fail(task, err::ERR_MODULE, fmt::format("module {} is executing", module->name));
     const bool compiledIn = module->unit == nullptr;
     const std::string name = module->name;

@@ -15,9 +15,11 @@ namespace {
 
 /// TPReadNum and TPReadDnum.
 template <class Number>
-Status readNumber(TaskCore* task, Number* answer, const String* text, const lib::Breaks& breaks) {
+Status readNumber(TaskCore* task, const char* instruction, Number* answer, const String* text,
+                  const lib::Breaks& breaks) {
     Dialog dialog;
     dialog.kind = DialogKind::Number;
+    dialog.instruction = instruction;
     dialog.lines.emplace_back(text->view());
     double value = 0;
     bool answered = false;
@@ -46,8 +48,10 @@ Status rt_TPReadFK(TaskCore* task, float* TPAnswer, const String* TPText, const 
     if (const Status status = buttons.requireEnd(task, breaks)) return status;
     Dialog dialog;
     dialog.kind = DialogKind::Choice;
+    dialog.instruction = "TPReadFK";
     dialog.lines.emplace_back(TPText->view());
     dialog.choices = buttons.texts();
+    dialog.results = buttons.results();
     int key = -1;
     const auto accept = [&](const std::string& answer) {
         key = buttons.named(answer);
@@ -63,7 +67,7 @@ Status rt_TPReadNum(TaskCore* task, float* TPAnswer, const String* TPText, const
                     Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                     bool PersBoolPassive, float* BreakFlag) {
     return readNumber(
-        task, TPAnswer, TPText,
+        task, "TPReadNum", TPAnswer, TPText,
         {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag});
 }
 
@@ -71,7 +75,7 @@ Status rt_TPReadDnum(TaskCore* task, double* TPAnswer, const String* TPText, con
                      Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive, bool* PersBoolBreak,
                      bool PersBoolPassive, float* BreakFlag) {
     return readNumber(
-        task, TPAnswer, TPText,
+        task, "TPReadDnum", TPAnswer, TPText,
         {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag});
 }
 }

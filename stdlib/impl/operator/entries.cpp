@@ -80,11 +80,12 @@ bool tune(const NumberWanted<Number>& wanted, const std::string& answer, Number&
 }
 
 template <class Number>
-Status enterNumber(TaskCore* task, Number* result, const MessageText& text,
+Status enterNumber(TaskCore* task, const char* instruction, Number* result, const MessageText& text,
                    const NumberWanted<Number>& wanted, const Breaks& breaks) {
     if (const Status status = checkLimits(task, wanted)) return status;
     Dialog dialog;
     dialog.kind = DialogKind::Number;
+    dialog.instruction = instruction;
     if (const Status status = lib::fillText(task, text, dialog)) return status;
     Number present = wanted.initial ? *wanted.initial : Number(0);
     dialog.hint = hintFor(wanted, present);
@@ -117,7 +118,8 @@ Status rt_UINumEntry(TaskCore* task, float* result, const String* Header, const 
                      const float* InitValue, const float* MinValue, const float* MaxValue, bool AsInteger,
                      const float* MaxTime, Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive,
                      bool* PersBoolBreak, bool PersBoolPassive, float* BreakFlag, Handle* UIActiveSignal) {
-    return enterNumber<float>(task, result, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
+    return enterNumber<float>(task, "UINumEntry", result,
+                              {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
                               {InitValue, MinValue, MaxValue, AsInteger, nullptr},
                               {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak,
                                PersBoolPassive, BreakFlag, UIActiveSignal});
@@ -128,7 +130,8 @@ Status rt_UIDnumEntry(TaskCore* task, double* result, const String* Header, cons
                       const double* InitValue, const double* MinValue, const double* MaxValue, bool AsInteger,
                       const float* MaxTime, Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive,
                       bool* PersBoolBreak, bool PersBoolPassive, float* BreakFlag, Handle* UIActiveSignal) {
-    return enterNumber<double>(task, result, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
+    return enterNumber<double>(task, "UIDnumEntry", result,
+                               {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
                                {InitValue, MinValue, MaxValue, AsInteger, nullptr},
                                {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak,
                                 PersBoolPassive, BreakFlag, UIActiveSignal});
@@ -139,7 +142,8 @@ Status rt_UINumTune(TaskCore* task, float* result, const String* Header, const S
                     float InitValue, float Increment, const float* MinValue, const float* MaxValue,
                     const float* MaxTime, Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive,
                     bool* PersBoolBreak, bool PersBoolPassive, float* BreakFlag, Handle* UIActiveSignal) {
-    return enterNumber<float>(task, result, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
+    return enterNumber<float>(task, "UINumTune", result,
+                              {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
                               {&InitValue, MinValue, MaxValue, false, &Increment},
                               {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak,
                                PersBoolPassive, BreakFlag, UIActiveSignal});
@@ -150,7 +154,8 @@ Status rt_UIDnumTune(TaskCore* task, double* result, const String* Header, const
                      double InitValue, double Increment, const double* MinValue, const double* MaxValue,
                      const float* MaxTime, Handle* DIBreak, bool DIPassive, Handle* DOBreak, bool DOPassive,
                      bool* PersBoolBreak, bool PersBoolPassive, float* BreakFlag, Handle* UIActiveSignal) {
-    return enterNumber<double>(task, result, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
+    return enterNumber<double>(task, "UIDnumTune", result,
+                               {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr},
                                {&InitValue, MinValue, MaxValue, false, &Increment},
                                {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak,
                                 PersBoolPassive, BreakFlag, UIActiveSignal});
@@ -163,6 +168,7 @@ Status rt_UIAlphaEntry(TaskCore* task, String* result, const String* Header, con
                        Handle* DOBreak, bool DOPassive, bool* PersBoolBreak, bool PersBoolPassive,
                        float* BreakFlag, Handle* UIActiveSignal) {
     Dialog dialog;
+    dialog.instruction = "UIAlphaEntry";
     if (const Status status =
             lib::fillText(task, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr}, dialog))
         return status;

@@ -116,11 +116,13 @@ Status rt_UIListView(TaskCore* task, float* result, float* Result, const String*
         return status;
     Dialog dialog;
     dialog.kind = DialogKind::List;
+    dialog.instruction = "UIListView";
     if (const Status status =
             lib::fillText(task, {Header, nullptr, nullptr, 0, false, Icon, nullptr}, dialog))
         return status;
     dialog.items = itemTexts(ListItems, ListItemsDim1);
     dialog.choices = buttons.texts();
+    dialog.results = buttons.results();
     const bool empty =
         std::all_of(dialog.items.begin(), dialog.items.end(), [](const auto& item) { return item.empty(); });
     if (empty && buttons.texts().empty())

@@ -15,13 +15,15 @@ using lib::Reply;
 namespace {
 
 /// `button` stays as it is when the dialog is broken off.
-Status askButton(TaskCore* task, const lib::MessageText& text, const lib::Buttons& buttons,
-                 const Breaks& breaks, float& button) {
+Status askButton(TaskCore* task, const char* instruction, const lib::MessageText& text,
+                 const lib::Buttons& buttons, const Breaks& breaks, float& button) {
     if (const Status status = buttons.requireEnd(task, breaks)) return status;
     Dialog dialog;
     dialog.kind = DialogKind::Choice;
+    dialog.instruction = instruction;
     if (const Status status = lib::fillText(task, text, dialog)) return status;
     dialog.choices = buttons.texts();
+    dialog.results = buttons.results();
     dialog.answerable = !dialog.choices.empty();
     int chosen = -1;
     const auto accept = [&](const std::string& answer) {
@@ -93,7 +95,7 @@ Status rt_UIMsgBox(TaskCore* task, const String* Header, const String* MsgLine1,
     lib::Buttons buttons;
     if (const Status status = buttons.read(task, Buttons, nullptr, 0, k::btnOK)) return status;
     float button = k::resUnkwn;
-    const Status status = askButton(task, {Header, nullptr, lines, 5, Wrap, Icon, Image}, buttons,
+    const Status status = askButton(task, "UIMsgBox", {Header, nullptr, lines, 5, Wrap, Icon, Image}, buttons,
                                     {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak,
                                      PersBoolPassive, BreakFlag, UIActiveSignal},
                                     button);
@@ -111,7 +113,7 @@ Status rt_UIMessageBox(TaskCore* task, float* result, const String* Header, cons
     if (const Status status = buttons.read(task, Buttons, BtnArray, BtnArrayDim1, k::btnOK)) return status;
     float button = DefaultBtn ? *DefaultBtn : k::resUnkwn;
     const Status status =
-        askButton(task, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, Image}, buttons,
+        askButton(task, "UIMessageBox", {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, Image}, buttons,
                   {MaxTime, DIBreak, DIPassive, DOBreak, DOPassive, PersBoolBreak, PersBoolPassive, BreakFlag,
                    UIActiveSignal},
                   button);

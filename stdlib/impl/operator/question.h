@@ -75,6 +75,8 @@ class Buttons {
     /// ERR_ARGVALERR for a set that does not exist, or more than five own buttons. `standard`: the set without an argument.
     Status read(TaskCore* task, const float* set, const String* own, int32_t ownCount, float standard);
     const std::vector<std::string>& texts() const { return texts_; }
+    /// The values that the program gets for them.
+    const std::vector<float>& results() const { return results_; }
     /// The button (from 0) that an answer names by its number or its text; -1 when it names none.
     int named(std::string_view answer) const;
     /// The value that the program gets for it: a btnres constant, or its number from 1.

@@ -1,5 +1,6 @@
 // Manual 1.6 and 1.17: modes, tasks, types of data.
 
+#include "runtime/host/panel_switches.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
@@ -52,11 +53,15 @@ Status rt_ResetData(TaskCore*, void* Data, const TypeDesc* DataType) {
     return kOk;
 }
 
-/// A virtual controller runs in automatic mode, continuously.
-Status rt_OpMode(TaskCore*, float* result) {
-    *result = k::OP_AUTO;
+Status rt_OpMode(TaskCore* task, float* result) {
+    switch (taskOf(task).controller().service<PanelSwitches>().mode) {
+    case OperatingMode::Auto: *result = k::OP_AUTO; break;
+    case OperatingMode::ManualReduced: *result = k::OP_MAN_PROG; break;
+    case OperatingMode::ManualFull: *result = k::OP_MAN_TEST; break;
+    }
     return kOk;
 }
+/// Steps count as continuous execution.
 Status rt_RunMode(TaskCore*, float* result, bool) {
     *result = k::RUN_CONT_CYCLE;
     return kOk;

@@ -10,7 +10,7 @@
 #include "runtime/host/unit_compiler.h"
 #include "stdlib/native_table.h"
 #include "tools/rapidc/dap/expression_names.h"
-#include "tools/rapidc/native_library.h"
+#include "tools/program/native_library.h"
 
 #include <algorithm>
 #include <dlfcn.h>

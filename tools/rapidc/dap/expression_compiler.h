@@ -4,7 +4,7 @@
 
 #include "runtime/host/controller.h"
 #include "runtime/host/mapped_image.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include "frontend/sema/session.h"
 

@@ -1,13 +1,7 @@
 #include "tools/rapidc/dap/program.h"
 
-#include "runtime/host/module_saver.h"
-#include "runtime/host/module_units.h"
 #include "runtime/robot/robot_model.h"
-#include "stdlib/native_table.h"
-#include "stdlib/standard_library.h"
-#include "tools/rapidc/module_store.h"
-#include "tools/rapidc/native_library.h"
-#include "tools/rapidc/run_setup.h"
+#include "tools/program/run_setup.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -106,72 +100,65 @@ Program::Program(const LaunchArguments& arguments, Client& client, const ClientF
     options_.stimulus = arguments_.stimulus;
     options_.home = arguments_.home;
     options_.realtime = arguments_.realtime;
-    check(client);
-    compile(client, facts);
+    compile(check(client), client, facts);
     prepare(inbox);
 }
 
 Program::~Program() = default;
 
-void Program::check(Client& client) {
+std::unique_ptr<Compilation> Program::check(Client& client) {
     Inputs inputs;
     inputs.paths = {arguments_.program};
     inputs.tasks = options_.tasks;
     inputs.configFiles = options_.configFiles;
     inputs.robots = options_.robots;
     inputs.requireMain = true;
-    compilation_ = checkInputs(inputs);
-    if (!compilation_->usageErrors.empty()) {
-        for (const std::string& problem : compilation_->usageErrors)
+    auto compilation = checkInputs(inputs);
+    if (!compilation->usageErrors.empty()) {
+        for (const std::string& problem : compilation->usageErrors)
             client.output("stderr", problem);
-        throw Refusal(compilation_->usageErrors.front());
+        throw Refusal(compilation->usageErrors.front());
     }
     std::string error;
     findStimulus(options_, inputs.paths);
     if (!readStimulus(options_, error)) throw Refusal(error);
+    return compilation;
 }
 
-void Program::compile(Client& client, const ClientFacts& facts) {
-    const bool stepping = !arguments_.noDebug || timesStatements(*compilation_);
-    compilation_->callsByName = !arguments_.noDebug;
-    codegen_ = codegenOptions(true);
-    const bool lowered = !compilation_->sink.hasErrors() &&
-                         lowerToIr(*compilation_, fs::path(arguments_.program).stem().string(), stepping,
-                                   module_, codegen_.partsAbove + 1);
-    sendDiagnostics(*compilation_, client, facts);
-    if (!lowered) {
-        std::string first;
-        for (const diag::Diagnostic& diagnostic : compilation_->sink.sorted())
-            if (first.empty() && diagnostic.severity == diag::Severity::Error) first = oneLine(diagnostic);
-        const std::size_t count = compilation_->sink.errorCount();
-        if (count > 1) first += fmt::format(" (and {} more)", count - 1);
-        throw Refusal("the program cannot be compiled: " + first);
-    }
-    runPassesInParts(codegen_, module_, irPasses(*compilation_, stepping));
+void Program::compile(std::unique_ptr<Compilation> compilation, Client& client, const ClientFacts& facts) {
+    compilation->callsByName = !arguments_.noDebug;
+    const bool stepping = !arguments_.noDebug || timesStatements(*compilation);
+    loaded_ = std::make_unique<LoadedProgram>(std::move(compilation));
     std::string error;
-    jit_ = codegen::jit(module_, codegen_, nativeSymbols(), error);
-    if (!jit_) throw Refusal(error);
-    sources_ = sourcesOf(*compilation_, stepping, codegen_.optimise);
-    compiler_ = std::make_unique<SourceCompiler>(*sources_);
-    loader_ = std::make_unique<rt::UnitLoader>(*compiler_, rt::findNativeAddress);
+    const bool compiled =
+        loaded_->compile({.name = fs::path(arguments_.program).stem().string(), .stepping = stepping}, error);
+    sendDiagnostics(loaded_->compilation(), client, facts);
+    if (compiled) return;
+    if (!error.empty()) throw Refusal(error);
+    const diag::Sink& sink = loaded_->compilation().sink;
+    std::string first;
+    for (const diag::Diagnostic& diagnostic : sink.sorted())
+        if (first.empty() && diagnostic.severity == diag::Severity::Error) first = oneLine(diagnostic);
+    const std::size_t count = sink.errorCount();
+    if (count > 1) first += fmt::format(" (and {} more)", count - 1);
+    throw Refusal("the program cannot be compiled: " + first);
 }
 
 void Program::prepare(rt::Inbox& inbox) {
     // The configuration is in the program already; reading it twice would define every signal twice.
     options_.configFiles.clear();
     std::string error;
-    if (options_.home.empty() && !compilation_->homeFolder.empty()) {
-        options_.home = copyHome(compilation_->homeFolder, home_, error);
+    const std::string& home = compilation().homeFolder;
+    if (options_.home.empty() && !home.empty()) {
+        options_.home = copyHome(home, home_, error);
         if (options_.home.empty()) throw Refusal(error);
     }
     controller_ = std::make_unique<rt::Controller>(options_);
     controller_->panel().setTerminal(false);
     controller_->log().setHumanOutput(nullptr);
-    rt::setUpStandardLibrary(*controller_);
-    rt::setModuleLoader(*controller_, loader_.get());
-    controller_->saver().setStore(std::make_unique<SourceStore>());
+    loaded_->equip(*controller_);
     controller_->scheduler().setInbox(&inbox);
-    if (controller_->prepare(*jit_->program()) != rt::ExitStatus::Ended)
+    if (controller_->prepare(loaded_->description()) != rt::ExitStatus::Ended)
         throw Refusal("the controller cannot be started");
 }
 

@@ -1,14 +1,10 @@
 #pragma once
 // Program: what a launch request makes: the compiled program and the controller that it runs on.
 
-#include "codegen/codegen.h"
 #include "config/temporary.h"
 #include "runtime/host/controller.h"
-#include "runtime/host/unit_loader.h"
+#include "tools/program/loaded_program.h"
 #include "tools/rapidc/dap/messages.h"
-#include "tools/rapidc/pipeline.h"
-#include "tools/rapidc/program_sources.h"
-#include "tools/rapidc/unit_compiler.h"
 
 #include <memory>
 #include <string>
@@ -38,25 +34,19 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     rt::Controller& controller() { return *controller_; }
-    const Compilation& compilation() const { return *compilation_; }
+    const Compilation& compilation() const { return loaded_->compilation(); }
     const LaunchArguments& arguments() const { return arguments_; }
     /// The path on this computer of a file as the program knows it ("HOME:/part.modx").
     std::string hostPath(const std::string& file) const;
 
   private:
-    void check(Client& client);
-    void compile(Client& client, const ClientFacts& facts);
+    std::unique_ptr<Compilation> check(Client& client);
+    void compile(std::unique_ptr<Compilation> compilation, Client& client, const ClientFacts& facts);
     void prepare(rt::Inbox& inbox);
 
     LaunchArguments arguments_;
     rt::RunOptions options_;
-    std::unique_ptr<Compilation> compilation_;
-    ir::Module module_;
-    codegen::CodegenOptions codegen_;
-    std::unique_ptr<codegen::JitProgram> jit_;
-    std::unique_ptr<ProgramSources> sources_;
-    std::unique_ptr<SourceCompiler> compiler_;
-    std::unique_ptr<rt::UnitLoader> loader_;
+    std::unique_ptr<LoadedProgram> loaded_;
     rapid::config::TemporaryFolder home_;
     std::unique_ptr<rt::Controller> controller_;
 };

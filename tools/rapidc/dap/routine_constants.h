@@ -2,7 +2,7 @@
 // Constants of routines: compiled code knows only their values, so the checked program has to say what they are.
 
 #include "runtime/abi/rt_abi.h"
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include <string>
 #include <vector>

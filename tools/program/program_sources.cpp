@@ -1,4 +1,4 @@
-#include "tools/rapidc/program_sources.h"
+#include "tools/program/program_sources.h"
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/host/cbor.h"

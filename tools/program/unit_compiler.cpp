@@ -1,9 +1,9 @@
-#include "tools/rapidc/unit_compiler.h"
+#include "tools/program/unit_compiler.h"
 
 #include "ir/lower/lower.h"
 #include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
-#include "tools/rapidc/native_library.h"
+#include "tools/program/native_library.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "tools/rapidc/run_setup.h"
+#include "tools/program/run_setup.h"
 
 #include "config/read_file.h"
 

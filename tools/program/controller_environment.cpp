@@ -1,4 +1,4 @@
-#include "tools/rapidc/controller_environment.h"
+#include "tools/program/controller_environment.h"
 
 #include "runtime/host/conveyors.h"
 #include "runtime/io/cfg_parser.h"

@@ -2,7 +2,7 @@
 // SourceCompiler: compiles a module that comes while a program runs (Load, StartLoad), beside the sources of the program.
 
 #include "runtime/host/unit_compiler.h"
-#include "tools/rapidc/program_sources.h"
+#include "tools/program/program_sources.h"
 
 #include <string>
 #include <vector>

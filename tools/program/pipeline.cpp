@@ -1,11 +1,11 @@
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include "frontend/lint/warnings.h"
 #include "ir/lower/lower.h"
 #include "ir/verify/verify.h"
 #include "runtime/host/command_line.h"
 #include "stdlib/native_table.h"
-#include "tools/rapidc/controller_environment.h"
+#include "tools/program/controller_environment.h"
 
 #include <cstdio>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "tools/rapidc/module_store.h"
+#include "tools/program/module_store.h"
 
 #include "config/atomic_file.h"
 #include "config/temporary.h"

@@ -1,4 +1,4 @@
-#include "tools/rapidc/native_library.h"
+#include "tools/program/native_library.h"
 
 #include "stdlib/native_bodies.h"
 #include "stdlib/native_table.h"

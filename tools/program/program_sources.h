@@ -2,7 +2,7 @@
 // ProgramSources: what a program was made of, as far as modules that come while it runs are compiled beside it. Built
 // executables carry it along.
 
-#include "tools/rapidc/pipeline.h"
+#include "tools/program/pipeline.h"
 
 #include <memory>
 #include <set>

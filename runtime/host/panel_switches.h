@@ -1,0 +1,18 @@
+#pragma once
+// PanelSwitches: what the operator chooses at the panel of the controller (manual 1.20, 2.10); a service of the Controller.
+
+#include <cstdint>
+
+namespace rt {
+
+enum class OperatingMode : uint8_t {
+    Auto,
+    ManualReduced, ///< at reduced speed, 250 mm/s
+    ManualFull,
+};
+
+struct PanelSwitches {
+    OperatingMode mode = OperatingMode::Auto;
+};
+
+} // namespace rt

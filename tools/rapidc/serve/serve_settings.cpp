@@ -1,0 +1,109 @@
+#include "tools/rapidc/serve/serve_settings.h"
+
+#include "runtime/host/command_line.h"
+#include "runtime/base/text_util.h"
+#include "runtime/net/address.h"
+#include "tools/program/pipeline.h"
+#include "tools/program/run_setup.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace rapidc::serve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void addPort(const rt::Command& command, const char* name, uint16_t& port, const char* of) {
+    const auto take = [&port](const std::string& text) -> std::string {
+        double number = 0;
+        if (!rt::parseNumber(text, number) || number != static_cast<uint16_t>(number))
+            return fmt::format("'{}' is not a port: a whole number from 0 (any free one) to 65535", text);
+        port = static_cast<uint16_t>(number);
+        return {};
+    };
+    command.addChecked(name, take, fmt::format("port of {}; default: any free one", of)).typeName("PORT");
+}
+
+void addRobotWare(const rt::Command& command, int& version) {
+    const auto take = [&version](const std::string& text) -> std::string {
+        if (text != "6" && text != "7" && text != "8")
+            return fmt::format("'{}' is not a RobotWare version: 6, 7 or 8", text);
+        version = text.front() - '0';
+        return {};
+    };
+    command
+        .addChecked("--robotware", take,
+                    "the RobotWare version that clients of RWS 2.0 read: 6, 7 or 8; default 7")
+        .typeName("N");
+}
+
+} // namespace
+
+void addServeOptions(const rt::Command& command, ServeSettings& settings) {
+    service::Settings& controller = settings.controller;
+    command.add("input", controller.inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addPort(command, "--http-port", settings.httpPort, "Robot Web Services 1.0 (HTTP)");
+    addPort(command, "--https-port", settings.httpsPort, "Robot Web Services 2.0 (HTTPS)");
+    addPort(command, "--web-port", settings.webPort, "the web page");
+    command
+        .add("--password", settings.password,
+             "password of the users 'Default User' and 'Admin'; default: robotics, as on a new controller")
+        .typeName("TEXT");
+    command.addFlag("--no-program-start", settings.noProgramStart,
+                    "begin with the motors off and the program stopped at main");
+    addRobotWare(command, controller.robotWare);
+    command.add("--backup-dir", settings.backupFolder, "the folder of $BACKUP; default: a temporary one")
+        .typeName("DIR");
+    command.add("--temp", settings.tempFolder, "the folder of $TEMP; default: a temporary one")
+        .typeName("DIR");
+    rt::addRunOptions(command, controller.options, true);
+    addAssumeSignalsOption(command, controller.inputs);
+    addWarningOption(command, controller.inputs);
+}
+
+std::string complete(ServeSettings& settings,
+                     std::vector<std::unique_ptr<rapid::config::TemporaryFolder>>& folders) {
+    service::Settings& controller = settings.controller;
+    rt::RunOptions& options = controller.options;
+    controller.programStart = !settings.noProgramStart;
+    Inputs& inputs = controller.inputs;
+    inputs.tasks = options.tasks;
+    inputs.configFiles = options.configFiles;
+    inputs.robots = options.robots;
+    inputs.conveyors = options.conveyors;
+    inputs.cameras = options.cameras;
+    if (options.network.listen) {
+        settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
+        if (!rt::net::isLoopback(*options.network.listen) && settings.password == kDefaultPassword)
+            return fmt::format(
+                "--listen={} lets other computers control the robot: choose a password with --password",
+                settings.address);
+    }
+    if (settings.password.empty()) return "--password must not be empty";
+    std::string error;
+    findStimulus(options, inputs.paths);
+    if (!readStimulus(options, error)) return error;
+    // Volumes outlive the controller, which a restart replaces.
+    const auto use = [&](const char* volume, const std::string& given) -> std::string {
+        std::string path = given;
+        if (path.empty()) {
+            folders.push_back(std::make_unique<rapid::config::TemporaryFolder>());
+            if (const int problem = folders.back()->make(volume); problem != 0)
+                return fmt::format("cannot make a folder for ${}: {}", volume, std::strerror(problem));
+            path = folders.back()->path();
+        }
+        options.volumes.push_back(fmt::format("{}={}", volume, path));
+        return {};
+    };
+    for (const auto& [volume, given] :
+         {std::pair{"BACKUP", settings.backupFolder}, std::pair{"TEMP", settings.tempFolder},
+          std::pair{"RAMDISK", std::string()}, std::pair{"SYSTEM", std::string()},
+          std::pair{"DATA", std::string()}})
+        if (error = use(volume, given); !error.empty()) return error;
+    return {};
+}
+
+} // namespace rapidc::serve

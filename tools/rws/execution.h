@@ -1,0 +1,28 @@
+#pragma once
+// /rw/rapid/execution: start, stop, steps, program pointer to main, cycle.
+
+#include "tools/rws/access.h"
+#include "tools/rws/router.h"
+#include "tools/rws/subscribable.h"
+#include "tools/service/virtual_controller.h"
+
+namespace rapidc::rws {
+
+class Execution {
+  public:
+    Execution(service::VirtualController& controller, const Access& access)
+        : controller_(controller), access_(access) {}
+
+    void addTo(Router& router, Subscribables& subscribables);
+
+  private:
+    Reply start(const Request& request);
+    Reply stop(const Request& request);
+    Reply setCycle(const Request& request);
+    Reply startFromMain();
+
+    service::VirtualController& controller_;
+    const Access& access_;
+};
+
+} // namespace rapidc::rws

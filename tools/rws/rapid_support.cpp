@@ -1,0 +1,107 @@
+#include "tools/rws/rapid_support.h"
+
+#include "config/letter_case.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace rapidc::rws {
+
+namespace {
+
+using rapid::config::sameName;
+
+const std::string kFileService = "/fileservice/";
+
+} // namespace
+
+Reply folder(std::initializer_list<std::pair<const char*, const char*>> children) {
+    Document document;
+    for (const auto& [type, path] : children)
+        document.add(type, path).self = path;
+    return Reply::of(std::move(document));
+}
+
+Reply badParameter(std::string_view name, std::string_view expected) {
+    return Reply::refuse(ReturnCode::BadParameter,
+                         std::string(name) + " is missing or wrong; expected: " + std::string(expected));
+}
+
+Reply replyTo(const service::Refusal& refusal, ReturnCode code, int status) {
+    return refusal.empty() ? Reply::done() : Reply::refuse(code, refusal, status);
+}
+
+std::optional<bool> readBool(std::string_view text) {
+    for (const char* word : {"true", "1", "on", "enabled"})
+        if (sameName(text, word)) return true;
+    for (const char* word : {"false", "0", "off", "disabled"})
+        if (sameName(text, word)) return false;
+    return std::nullopt;
+}
+
+std::optional<int64_t> readWhole(std::string_view text, int64_t least, int64_t most) {
+    int64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || value < least || value > most) return std::nullopt;
+    return value;
+}
+
+void addOrder(Router& router, const std::string& pattern, const char* oldName, const char* newName,
+              const Handler& handler) {
+    router.action(pattern, oldName, handler);
+    router.post(Dialect::V2, pattern + "/" + newName, handler);
+}
+
+rt::Task* taskOf(service::VirtualController& controller, const Request& request) {
+    std::string name = request.parameter("task");
+    if (name.empty()) name = request.query.text("task");
+    if (name.empty()) name = request.form.text("task");
+    return controller.core().findTask(name);
+}
+
+Reply noTask(const Request& request) {
+    // a path that names no task leads nowhere; a parameter that does not is wrong
+    const std::string& name = request.parameter("task");
+    if (!name.empty()) return Reply::refuse(ReturnCode::NotFound, "There is no task " + name);
+    return badParameter("task", "the name of a task");
+}
+
+std::optional<VolumePath> volumePath(const service::VirtualController& controller, std::string_view path) {
+    if (path.size() > kFileService.size() && sameName(path.substr(0, kFileService.size()), kFileService))
+        path.remove_prefix(kFileService.size());
+    if (path.starts_with('/')) path.remove_prefix(1);
+    if (path.starts_with('$')) path.remove_prefix(1);
+    const std::size_t end = std::min(path.find_first_of(":/"), path.size());
+    const std::string volume(path.substr(0, end));
+    path.remove_prefix(end);
+    if (path.starts_with(':')) path.remove_prefix(1);
+    while (path.starts_with('/'))
+        path.remove_prefix(1);
+    const rt::Volumes& volumes = const_cast<service::VirtualController&>(controller).core().volumes();
+    VolumePath result;
+    result.rapid = volume + ":/" + std::string(path);
+    const bool isClean = !volume.empty() && result.rapid.find('\0') == std::string::npos;
+    if (!isClean || !volumes.has(volume) || !volumes.resolve(result.rapid, result.host)) return std::nullopt;
+    return result;
+}
+
+std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit) {
+    const auto field = [&](const char* name) {
+        return request.query.has(name) ? request.query.text(name) : request.form.text(name);
+    };
+    Page page{0, standardLimit};
+    if (const std::string text = field("start"); !text.empty()) {
+        const auto start = readWhole(text, 0, INT32_MAX);
+        if (!start) return std::nullopt;
+        page.start = static_cast<std::size_t>(*start);
+    }
+    if (const std::string text = field("limit"); !text.empty()) {
+        const auto limit = readWhole(text, 1, INT32_MAX);
+        if (!limit) return std::nullopt;
+        page.limit = std::min(static_cast<std::size_t>(*limit), mostLimit);
+    }
+    return page;
+}
+
+} // namespace rapidc::rws

@@ -1,0 +1,56 @@
+#pragma once
+// What the resources around RAPID share: small parts of replies, values of forms, tasks, paths of volumes.
+
+#include "tools/rws/router.h"
+#include "tools/service/virtual_controller.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rapidc::rws {
+
+/// A resource that only leads to others: a class and a relative path for each.
+Reply folder(std::initializer_list<std::pair<const char*, const char*>> children);
+/// 400: "speed-ratio must be ...".
+Reply badParameter(std::string_view name, std::string_view expected);
+/// An order of the controller: 204, or its refusal with this code.
+Reply replyTo(const service::Refusal& refusal, ReturnCode code = ReturnCode::Rejected, int status = 0);
+
+/// true, false, 1, 0, on, off, enabled, disabled; in any case. None: something else.
+std::optional<bool> readBool(std::string_view text);
+/// A whole number, all of the text. None: something else, or it lies outside the limits.
+std::optional<int64_t> readWhole(std::string_view text, int64_t least, int64_t most);
+/// "true" or "false".
+inline const char* boolText(bool value) {
+    return value ? "true" : "false";
+}
+
+/// Registers an order: RWS 1.0 POST pattern?action=oldName, RWS 2.0 POST pattern/newName.
+void addOrder(Router& router, const std::string& pattern, const char* oldName, const char* newName,
+              const Handler& handler);
+
+/// The task that the parameter, the query or the form names "task"; null: there is none.
+rt::Task* taskOf(service::VirtualController& controller, const Request& request);
+/// 400 or 404 because of that.
+Reply noTask(const Request& request);
+
+/// A file of a volume.
+struct VolumePath {
+    std::string rapid; ///< "HOME:/part/x.mod"
+    std::string host;  ///< where it lies on this computer
+};
+/// "$HOME/x", "HOME/x", "HOME:/x", "HOME:x", "/fileservice/$HOME/x". None: it leads out of the volumes, or names none.
+std::optional<VolumePath> volumePath(const service::VirtualController& controller, std::string_view path);
+
+/// A page of a list.
+struct Page {
+    std::size_t start = 0, limit = 0;
+};
+/// From the fields "start" and "limit" of the query or the form. None: they make no sense.
+std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit);
+
+} // namespace rapidc::rws

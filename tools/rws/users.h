@@ -1,0 +1,39 @@
+#pragma once
+// People at clients: who is logged on, their grants, and the privilege to modify in manual mode (RMMP).
+
+#include "tools/rws/router.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+
+namespace rapidc::rws {
+
+class Users {
+  public:
+    void addTo(Router& router);
+    /// The session has the privilege to modify in manual mode.
+    bool mayModify(uint64_t session) const { return privileged_.contains(session); }
+    void sessionEnded(uint64_t session);
+
+  private:
+    /// What a client has said about its user (POST /users).
+    struct Person {
+        std::string alias, application, location, locale = "remote";
+    };
+    Reply registerPerson(const Request& request);
+    Reply list(const Request& request) const;
+    Reply loginInfo(const Request& request) const;
+    Reply requestPrivilege(const Request& request);
+    Reply privilege(const Request& request) const;
+    Reply poll(const Request& request) const;
+    void addGrants(Router& router);
+    Person personOf(const Session& session) const;
+
+    std::map<uint64_t, Person> people_; ///< by session
+    std::map<uint64_t, std::string> names_;
+    std::set<uint64_t> privileged_;
+};
+
+} // namespace rapidc::rws

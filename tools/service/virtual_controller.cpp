@@ -1,0 +1,211 @@
+// VirtualController: its life from the first start to the end. Orders: virtual_controller_orders.cpp; program memory:
+// virtual_controller_memory.cpp.
+
+#include "tools/service/virtual_controller.h"
+
+#include "runtime/host/panel_switches.h"
+#include "runtime/host/stop_signals.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+namespace rapidc::service {
+
+namespace {
+
+constexpr rt::Time kMotionPeriod = 4 * rt::kMillisecond;
+
+} // namespace
+
+VirtualController::VirtualController(Settings settings) : settings_(std::move(settings)) {}
+
+VirtualController::~VirtualController() {
+    core_.reset(); // before the code that it executes
+}
+
+std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edits, std::string& problems,
+                                                          rt::ExitStatus& status) {
+    Inputs inputs = settings_.inputs;
+    inputs.requireMain = true;
+    inputs.adjust = [&edits](std::vector<rapid::sema::TaskInput>& tasks) { edits.applyTo(tasks); };
+    auto compilation = checkInputs(inputs);
+    if (!compilation->usageErrors.empty()) {
+        status = rt::ExitStatus::BadUsage;
+        for (const std::string& problem : compilation->usageErrors)
+            problems += problem + "\n";
+        return nullptr;
+    }
+    auto program = std::make_unique<LoadedProgram>(std::move(compilation));
+    std::string error;
+    const std::string name = std::filesystem::path(inputs.paths.front()).stem().string();
+    const bool compiled = program->compile({.name = name, .stepping = true}, error);
+    for (const rapid::diag::Diagnostic& diagnostic : program->compilation().sink.sorted())
+        if (diagnostic.severity == rapid::diag::Severity::Error)
+            problems += rapid::diag::renderText(diagnostic, false);
+    if (compiled) return program;
+    if (!error.empty()) problems += error + "\n";
+    status = rt::ExitStatus::BadProgram;
+    return nullptr;
+}
+
+rt::ExitStatus VirtualController::open() {
+    std::string problems;
+    rt::ExitStatus status = rt::ExitStatus::Ended;
+    program_ = compile(edits_, problems, status);
+    if (!program_) {
+        fmt::print(stderr, "{}", problems);
+        return status;
+    }
+    printDiagnostics(program_->compilation());
+    panel_.motors = settings_.programStart ? MotorState::On : MotorState::Off;
+    Succession first;
+    first.programStart = first.motorsOn = settings_.programStart;
+    return makeCore(first);
+}
+
+rt::ExitStatus VirtualController::makeCore(const Succession& how) {
+    rt::RunOptions options = settings_.options;
+    options.configFiles.clear(); // they are in the program already
+    core_ = std::make_unique<rt::Controller>(options);
+    core_->panel().setAnsweredByClients();
+    core_->panel().setOutput(stderr, stderr); // standard output belongs to the addresses
+    program_->equip(*core_);
+    core_->setInbox(&inbox_);
+    core_->setResident(how.programStart, how.motorsOn);
+    if (!how.state.empty()) core_->continueFrom(how.state, how.powerOn);
+    if (const rt::ExitStatus status = core_->prepare(program_->description());
+        status != rt::ExitStatus::Ended)
+        return status;
+    for (const auto& [name, value] : how.signals)
+        if (const rt::SignalId id = core_->io().find(name); id >= 0) (void)core_->io().force(id, value);
+    for (const auto& task : core_->tasks())
+        core_->setTaskActive(*task, inactive_.count(task->name()) == 0);
+    observe();
+    applyPanel();
+    setPace(pace_);
+    core_->holdTime(!timeRunning_);
+    return rt::ExitStatus::Ended;
+}
+
+/// The panel of a new controller is as that of the one before.
+void VirtualController::applyPanel() {
+    core_->service<rt::PanelSwitches>().mode = panel_.mode;
+    core_->setRunOnce(panel_.runOnce);
+    for (const auto& motion : core_->motions()) {
+        motion->system().setOverride(panel_.speedRatio);
+        motion->refresh();
+    }
+}
+
+void VirtualController::observe() {
+    watch_.forget();
+    core_->log().addListener([this](const rt::Event& event) { observers_.event(event); });
+    core_->io().addListener(-1,
+                            [this](rt::SignalId id, double, double value) { observers_.signal(id, value); });
+    core_->panel().onLine([this](std::string_view) { observers_.changed(Change::Display); });
+    core_->onLook([this] { look(); });
+    core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
+}
+
+void VirtualController::everyFourMilliseconds() {
+    core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
+    if (observers_.wantsMotion()) observers_.motion();
+}
+
+void VirtualController::look() {
+    if (!core_->motorsOn() && panel_.motors == MotorState::On) panel_.motors = MotorState::Off;
+    if (core_->motorsOn() && panel_.motors == MotorState::Off) panel_.motors = MotorState::On;
+    if (cycleStop_ && !isRunning()) {
+        cycleStop_ = false;
+        core_->setRunOnce(panel_.runOnce);
+    }
+    if (cursor_) carryOutCursor();
+    watch_.look();
+}
+
+void VirtualController::post(std::function<void()> command) {
+    inbox_.post([this, command = std::move(command)] { execute(command); });
+}
+
+/// A command that comes after an order to restart is for the next controller.
+void VirtualController::execute(const std::function<void()>& command) {
+    if (succession_ || ends_)
+        postponed_.push_back(command);
+    else
+        command();
+}
+
+void VirtualController::shutDown() {
+    inbox_.post([this] {
+        ends_ = true;
+        if (core_) core_->endRun();
+    });
+}
+
+rt::ExitStatus VirtualController::run() {
+    rt::ExitStatus status = rt::ExitStatus::Ended;
+    for (;;) {
+        core_->log().write(rt::EventId::ControllerStarted, nullptr);
+        status = core_->run();
+        if (!succession_ || ends_ || rt::StopSignals::received() != 0) break;
+        if (status = succeed(); status != rt::ExitStatus::Ended) break;
+    }
+    ends_ = true;
+    postponed_.clear();
+    return status;
+}
+
+/// The controller of now ends, and the next one takes its place.
+rt::ExitStatus VirtualController::succeed() {
+    const std::unique_ptr<Succession> how = std::move(succession_);
+    core_.reset();
+    if (how->program) program_ = std::move(how->program);
+    cursor_.reset();
+    cycleStop_ = false;
+    if (const rt::ExitStatus status = makeCore(*how); status != rt::ExitStatus::Ended) return status;
+    observers_.changed(Change::Generation);
+    std::deque<std::function<void()>> commands;
+    commands.swap(postponed_);
+    for (std::function<void()>& command : commands)
+        inbox_.post([this, command = std::move(command)] { execute(command); });
+    return rt::ExitStatus::Ended;
+}
+
+std::string VirtualController::folderOf(const std::string& volume) {
+    std::string path;
+    return core_->volumes().has(volume) && core_->volumes().resolve(volume + ":", path) ? path
+                                                                                        : std::string();
+}
+
+Refusal VirtualController::restart(RestartMode mode) {
+    auto next = std::make_unique<Succession>();
+    next->programStart = next->motorsOn = settings_.programStart;
+    if (mode == RestartMode::Warm) {
+        next->state = core_->captureState();
+    } else {
+        std::string problems;
+        rt::ExitStatus status = rt::ExitStatus::Ended;
+        edits_.clear();
+        next->program = compile(edits_, problems, status);
+        if (!next->program) return "the program in its files has mistakes:\n" + problems;
+    }
+    panel_.motors = next->motorsOn ? MotorState::On : MotorState::Off;
+    emergencyStop_ = safeguardOpen_ = false;
+    succession_ = std::move(next);
+    core_->endRun();
+    return {};
+}
+
+void VirtualController::setPace(int percent) {
+    pace_ = percent;
+    core_->scheduler().setPace(percent > 0, percent > 0 ? percent : 100);
+}
+
+void VirtualController::setTimeRunning(bool running) {
+    timeRunning_ = running;
+    core_->holdTime(!running);
+}
+
+} // namespace rapidc::service
