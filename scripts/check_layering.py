@@ -104,6 +104,8 @@ RESTRICTED = [
       "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",
       "tools/rapidc/dap/messages.h", "tools/rws/render_json.cpp", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
+    (re.compile(r"^(egm\.pb\.h|google/protobuf/.*)$"), ["stdlib/impl/guided_motion/egm_messages.cpp"],
+     "messages of EGM are made and read through stdlib/impl/guided_motion/egm_messages.h"),
     (re.compile(r"^catch2/"), ["tests"], "the test framework belongs to tests"),
 ]
 

@@ -344,8 +344,10 @@ std::size_t Socket::nextDatagram() {
     const auto isForeign = [this](const Datagram& datagram) {
         return state_ == State::Connected && !isRemote(datagram.from);
     };
-    while (!datagramsIn_.empty() && isForeign(datagramsIn_.front()))
+    while (!datagramsIn_.empty() && isForeign(datagramsIn_.front())) {
+        foreign_ = datagramsIn_.front().from;
         datagramsIn_.pop_front();
+    }
     return datagramsIn_.empty() ? 0 : datagramsIn_.front().bytes.size();
 }
 

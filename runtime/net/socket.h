@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace rt::net {
 
@@ -74,6 +75,8 @@ class Socket {
     Outcome sendTo(std::string_view bytes, const Address& to);
     /// Again: none has come. Connected sockets take those of the other side only.
     Outcome receiveFrom(Datagram& datagram);
+    /// Who sent a datagram that a connected socket did not take, since the last call.
+    std::optional<Address> takeForeign() { return std::exchange(foreign_, std::nullopt); }
     /// Bytes that were sent still come to the other side. Tasks that wait for this socket are notified.
     void close();
 
@@ -104,6 +107,7 @@ class Socket {
     std::string endReason_;
     std::string received_;
     std::deque<Datagram> datagramsIn_;
+    std::optional<Address> foreign_;              ///< sender of the latest datagram that was not taken
     std::deque<std::shared_ptr<Socket>> waiting_; ///< connections to be accepted
     WaitQueue changed_;
 };

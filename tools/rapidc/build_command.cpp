@@ -51,6 +51,7 @@ codegen::LinkOptions linkOptions(bool strip, bool wholeLibrary) {
         options.libraries.push_back(path(name));
     (wholeLibrary ? options.wholeLibraries : options.libraries).push_back(path("rapidc_stdlib"));
     options.libraries.emplace_back(RAPIDC_BOOST_CONTEXT);
+    options.libraries.emplace_back(RAPIDC_PROTOBUF);
     options.stripDebug = strip;
     const std::string arguments = RAPIDC_LINK_ARGUMENTS;
     for (size_t at = 0; at < arguments.size();) {

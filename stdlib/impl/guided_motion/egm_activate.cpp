@@ -1,8 +1,10 @@
 // EGM: what is guided and how (EGMAct...), and streaming of positions.
 
 #include "stdlib/impl/guided_motion/egm_asked.h"
+#include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/state.h"
+#include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 using namespace rt;
 using lib::EgmProcess;
@@ -28,6 +31,10 @@ struct ActArguments {
     bool stream;
     const data::Tooldata* tool;
     const data::Wobjdata* workObject;
+    Handle* output;
+    Handle* input;
+    double* sent;
+    double* received;
     const float *filter, *sampleRate, *maxDeviation, *maxSpeed;
 };
 
@@ -66,6 +73,26 @@ Status setLimit(TaskCore* task, const char* name, const float* given, double& li
     return lib::fail(task, err::ERR_ARGVALERR, fmt::format("{} must be a number above 0", name));
 }
 
+/// The persistent that an argument is; "" when it is left out.
+Status nameOfNumbers(TaskCore* task, const char* argument, const double* numbers, std::string& name) {
+    if (numbers == nullptr) return kOk;
+    name = lib::nameOfData(taskOf(task).controller(), numbers);
+    if (!name.empty()) return kOk;
+    return lib::fail(task, err::ERR_ARGVALERR,
+                     fmt::format("{} must be a whole persistent array of a module", argument));
+}
+
+/// Signals and data that travel with the messages.
+Status exchangeOf(TaskCore* task, const ActArguments& args, lib::RapidExchange& exchange) {
+    Status status = kOk;
+    if (args.output != nullptr && (exchange.output = lib::signalOf(task, *args.output, status)) < 0)
+        return status;
+    if (args.input != nullptr && (exchange.input = lib::signalOf(task, *args.input, status)) < 0)
+        return status;
+    if ((status = nameOfNumbers(task, "\\DataToSensor", args.sent, exchange.sent)) != kOk) return status;
+    return nameOfNumbers(task, "\\DataFromSensor", args.received, exchange.received);
+}
+
 Status activate(TaskCore* task, EgmProcess& process, const ActArguments& args, GuidanceSettings& settings) {
     static const data::Wobjdata kWorld = lib::MotionState().workObject;
     const data::Wobjdata* workObject = args.workObject != nullptr ? args.workObject : &kWorld;
@@ -79,7 +106,9 @@ Status activate(TaskCore* task, EgmProcess& process, const ActArguments& args, G
         return status;
     Time period = 0;
     if (const Status status = lib::egmPeriod(task, args.sampleRate, period)) return status;
-    process.activate(settings, period);
+    lib::RapidExchange exchange;
+    if (const Status status = exchangeOf(task, args, exchange)) return status;
+    process.activate(settings, exchange, period);
     if (!args.stream) return kOk;
     const std::string problem = process.startStream(period);
     return problem.empty() ? kOk : lib::fail(task, err::ERR_UDPUC_COMM, problem);
@@ -98,13 +127,13 @@ Status frameType(TaskCore* task, float type, int& result) {
 
 extern "C" {
 
-/// \DOToSensor and \DIFromSensor are accepted and not exchanged.
 Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
-                      data::Wobjdata* WObj, data::Loaddata*, Handle*, Handle*, const data::Egm_minmax* J1,
-                      const data::Egm_minmax* J2, const data::Egm_minmax* J3, const data::Egm_minmax* J4,
-                      const data::Egm_minmax* J5, const data::Egm_minmax* J6, const data::Egm_minmax* J7,
-                      const float* LpFilter, const float* SampleRate, const float* MaxPosDeviation,
-                      const float* MaxSpeedDeviation) {
+                      data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, Handle* DIFromSensor,
+                      double* DataToSensor, int32_t, double* DataFromSensor, int32_t,
+                      const data::Egm_minmax* J1, const data::Egm_minmax* J2, const data::Egm_minmax* J3,
+                      const data::Egm_minmax* J4, const data::Egm_minmax* J5, const data::Egm_minmax* J6,
+                      const data::Egm_minmax* J7, const float* LpFilter, const float* SampleRate,
+                      const float* MaxPosDeviation, const float* MaxSpeedDeviation) {
     Status status = kOk;
     EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Joint, status);
     if (process == nullptr) return status;
@@ -113,17 +142,19 @@ Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Too
     for (std::size_t i = 0; i < std::size(windows); ++i)
         if ((status = setWindow(task, windows[i], kAngle, settings.windows[i])) != kOk) return status;
     return activate(task, *process,
-                    {StreamStart, Tool, WObj, LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
+                    {StreamStart, Tool, WObj, DOToSensor, DIFromSensor, DataToSensor, DataFromSensor,
+                     LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
                     settings);
 }
 
 Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
-                     data::Wobjdata* WObj, data::Loaddata*, Handle*, Handle*, const data::Pose* CorrFrame,
-                     float CorrFrType, const data::Pose* SensorFrame, float SensorFrType,
-                     const data::Egm_minmax* x, const data::Egm_minmax* y, const data::Egm_minmax* z,
-                     const data::Egm_minmax* rx, const data::Egm_minmax* ry, const data::Egm_minmax* rz,
-                     const float* LpFilter, const float* SampleRate, const float* MaxPosDeviation,
-                     const float* MaxSpeedDeviation) {
+                     data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, Handle* DIFromSensor,
+                     double* DataToSensor, int32_t, double* DataFromSensor, int32_t,
+                     const data::Pose* CorrFrame, float CorrFrType, const data::Pose* SensorFrame,
+                     float SensorFrType, const data::Egm_minmax* x, const data::Egm_minmax* y,
+                     const data::Egm_minmax* z, const data::Egm_minmax* rx, const data::Egm_minmax* ry,
+                     const data::Egm_minmax* rz, const float* LpFilter, const float* SampleRate,
+                     const float* MaxPosDeviation, const float* MaxSpeedDeviation) {
     Status status = kOk;
     EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Pose, status);
     if (process == nullptr) return status;
@@ -138,7 +169,8 @@ Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tool
         if ((status = setWindow(task, windows[i], i < 3 ? kLength : kAngle, settings.windows[i])) != kOk)
             return status;
     return activate(task, *process,
-                    {StreamStart, Tool, WObj, LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
+                    {StreamStart, Tool, WObj, DOToSensor, DIFromSensor, DataToSensor, DataFromSensor,
+                     LpFilter, SampleRate, MaxPosDeviation, MaxSpeedDeviation},
                     settings);
 }
 
@@ -149,8 +181,9 @@ Status rt_EGMActMove(TaskCore* task, Handle* EGMid, const data::Pose* SensorFram
     GuidanceSettings settings;
     settings.mode = GuidanceMode::PathCorrection;
     settings.sensorFrame = lib::toFrame(*SensorFrame);
-    return activate(task, *process, {false, nullptr, nullptr, nullptr, SampleRate, nullptr, nullptr},
-                    settings);
+    ActArguments arguments{};
+    arguments.sampleRate = SampleRate;
+    return activate(task, *process, arguments, settings);
 }
 
 Status rt_EGMStreamStart(TaskCore* task, Handle* EGMid, const float* SampleRate) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -28,6 +31,7 @@ void EgmProcess::disconnect() {
     endSession();
     partner_.reset();
     settings_.reset();
+    exchanged_ = {};
     data_ = {};
     isConnected_ = timedOut_ = false;
 }
@@ -38,8 +42,10 @@ void EgmProcess::lose() {
     timedOut_ = wasGuiding;
 }
 
-void EgmProcess::activate(const GuidanceSettings& settings, Time period) {
+void EgmProcess::activate(const GuidanceSettings& settings, const RapidExchange& exchanged, Time period) {
     settings_ = settings;
+    exchanged_ = exchanged;
+    noteTool();
     data_ = {};
     hasData_ = false;
     correction_ = {};
@@ -65,13 +71,14 @@ void EgmProcess::stopStream() {
 void EgmProcess::run(const GuidanceOrder& order) {
     if (!session_.isOpen) beginSession(session_.period);
     order_ = order;
+    noteTool();
     arm_ = std::make_unique<GuidedArm>(motion(), *settings_, order);
     phase_ = Phase::Following;
     awaitsCondition_ = !order.continues;
     timedOut_ = false;
     began_ = lastAnswer_ = controller_.scheduler().now();
     convergedSince_ = kNever;
-    limit_.clear();
+    limits_ = {};
     schedule();
 }
 
@@ -143,10 +150,7 @@ void EgmProcess::tick() {
         endSession();
         return;
     }
-    if (partner_ && partner_->receive(data_)) {
-        lastAnswer_ = now;
-        hasData_ = hasNewData_ = true;
-    }
+    takeData(now);
     const bool isNew = std::exchange(hasNewData_, false);
     if (mode_ == GuidanceMode::PathCorrection && isActivated()) correct(now, isNew);
     if (phase_ != Phase::None) guide(now);
@@ -154,30 +158,87 @@ void EgmProcess::tick() {
     schedule();
 }
 
+void EgmProcess::takeData(Time now) {
+    SensorData received;
+    if (!partner_ || !partner_->receive(received)) return;
+    lastAnswer_ = now;
+    exchanged_.receive(owner_, received);
+    if (!received.hasTarget) return;
+    data_ = std::move(received);
+    hasData_ = hasNewData_ = true;
+}
+
 void EgmProcess::exchange() {
-    session_.next = addTime(controller_.scheduler().now(), session_.period);
-    (void)sendState(); // what cannot be sent is not answered
+    const Time now = controller_.scheduler().now();
+    session_.next = addTime(now, session_.period);
+    const std::string problem = sendState();
+    if (problem.empty())
+        failures_.note();
+    else if (failures_.begins(now))
+        controller_.log().write(EventId::EgmNotSent, &owner_, {partner_->name(), problem});
 }
 
 std::string EgmProcess::sendState() {
-    if (!partner_) return {};
+    return partner_ ? partner_->send(robotData()) : std::string();
+}
+
+namespace {
+
+RobotPlace placeOf(const motion::MotionState& state, const motion::Pose& pose) {
+    RobotPlace place;
+    place.pose = pose;
+    const auto axes = state.numberedAxes();
+    const auto firstExternal = axes.begin() + place.joints.size();
+    std::copy(axes.begin(), firstExternal, place.joints.begin());
+    const auto isThere = [](double axis) { return motion::isConnected(axis); };
+    const auto last = std::find_if(axes.rbegin(), std::make_reverse_iterator(firstExternal), isThere);
+    for (auto axis = firstExternal; axis != last.base(); ++axis)
+        place.external.push_back(isThere(*axis) ? *axis : 0);
+    return place;
+}
+
+/// Of the fastest axis, in percent of its highest speed.
+double utilization(const motion::MotionState& state, const robot::RobotModel& model) {
+    double most = 0;
+    for (std::size_t i = 0; i < state.jointSpeed.size(); ++i)
+        most = std::max(most, std::fabs(state.jointSpeed[i]) / model.maxSpeed[i] * 100);
+    return most;
+}
+
+} // namespace
+
+void EgmProcess::noteTool() {
+    const motion::FrameSetup frames = basedFrames(motion(), settings_->frames);
+    toolAtStart_ = guidedTcp(motion(), frames, motion().system().currentJoints());
+}
+
+/// The frame in which messages say where the robot is, in world.
+motion::Pose EgmProcess::correctionFrame() const {
+    const GuidanceSettings settings = settings_.value_or(GuidanceSettings{});
+    if (settings.correctionType == kToolFrame) return toolAtStart_ * settings.correctionFrame;
+    return guidanceFrame(motion(), basedFrames(motion(), settings.frames), settings.correctionType) *
+           settings.correctionFrame;
+}
+
+RobotData EgmProcess::robotData() {
     RobotData data;
     motion::MotionSystem& arm = motion().system();
-    data.feedback = data.planned = arm.currentJoints();
+    const motion::MotionState state = arm.current();
     const GuidanceSettings settings = settings_.value_or(GuidanceSettings{});
     const motion::FrameSetup frames = basedFrames(motion(), settings.frames);
-    const motion::Pose frame =
-        guidanceFrame(motion(), frames, settings.correctionType) * settings.correctionFrame;
-    data.feedbackPose = data.plannedPose = inverse(frame) * guidedTcp(motion(), frames, data.feedback);
+    data.feedback =
+        placeOf(state, inverse(correctionFrame()) * guidedTcp(motion(), frames, arm.currentJoints()));
+    data.planned = data.feedback;
     data.nanoseconds = controller_.scheduler().now();
     data.calendar = controller_.calendarSeconds();
     data.motorsOn = controller_.motorsOn();
     data.isGuided = phase_ != Phase::None || isCorrecting();
     data.isConverged = arm_ && phase_ != Phase::None && hasData_ && arm_->isConverged();
     data.programRuns = owner_.isExecuting();
-    data.utilization = arm_ ? arm_->utilization() : 0;
+    data.utilization = utilization(state, motion().model());
     data.moveIndex = static_cast<uint32_t>(arm.lastOrdered());
-    return partner_->send(data);
+    exchanged_.send(owner_, data);
+    return data;
 }
 
 // ---- Path corrections --------------------------------------------------------------------------------------------
@@ -257,9 +318,7 @@ void EgmProcess::guide(Time now) {
         arm_->brake();
         if (!arm_->isStanding()) break;
         if (!wayBack_.isWanted) return finish();
-        phase_ = Phase::WayBack;
-        wayBack_.began = now;
-        wayBack_.seconds = std::max(wayBack_.rampOut, arm_->beginWayBack());
+        beginWayBack(now);
         break;
     case Phase::WayBack: {
         const double seconds = toSeconds(now - wayBack_.began);
@@ -277,6 +336,16 @@ void EgmProcess::guide(Time now) {
     finish();
 }
 
+void EgmProcess::beginWayBack(Time now) {
+    phase_ = Phase::WayBack;
+    wayBack_.began = now;
+    const double least = arm_->beginWayBack();
+    wayBack_.seconds = std::max(wayBack_.rampOut, least);
+    if (wayBack_.rampOut > 0 && least > wayBack_.rampOut)
+        controller_.log().write(EventId::EgmRampIncreased, &owner_,
+                                {fmt::format("{:.2f}", wayBack_.rampOut), fmt::format("{:.2f}", least)});
+}
+
 void EgmProcess::followOn(Time now) {
     if (partner_ && partner_->answers() && now - lastAnswer_ >= timeout_) {
         controller_.log().write(EventId::EgmNoData, &owner_,
@@ -286,9 +355,10 @@ void EgmProcess::followOn(Time now) {
     }
     const double rampIn = order_->rampIn;
     arm_->follow(data_, rampIn > 0 ? std::min(1.0, toSeconds(now - began_) / rampIn) : 1);
-    if (!arm_->limit().empty() && limit_.empty())
+    if (arm_->limit().empty())
+        limits_.note();
+    else if (limits_.begins(now))
         controller_.log().write(EventId::EgmLimited, &owner_, {arm_->limit()});
-    limit_ = arm_->limit();
     if (!hasData_ || !arm_->isConverged())
         convergedSince_ = kNever;
     else if (convergedSince_ == kNever)

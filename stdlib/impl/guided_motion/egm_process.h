@@ -2,7 +2,9 @@
 // EgmProcess: one EGM process of a controller, which an egmident names (EGMGetId): its source of data, its session of
 // messages and its guidance. EgmProcesses has all of them.
 
+#include "stdlib/impl/guided_motion/event_burst.h"
 #include "stdlib/impl/guided_motion/guided_arm.h"
+#include "stdlib/impl/guided_motion/rapid_exchange.h"
 
 #include "runtime/motion/path_corrections.h"
 
@@ -18,7 +20,7 @@ namespace rt::lib {
 
 /// EXT_MOTION_DATA of MOC.cfg.
 struct ExternalMotionData {
-    double gain = 20;      ///< 1/s
+    double gain = 40;      ///< 1/s
     double filterHz = 20;  ///< Hz
     double rampTime = 0.5; ///< s
 };
@@ -50,7 +52,7 @@ class EgmProcess {
     /// The power has failed: as disconnect(), and an instruction that waits raises the error of a time-out.
     void lose();
     /// EGMAct...: the session begins. `period` of the messages.
-    void activate(const GuidanceSettings& settings, Time period);
+    void activate(const GuidanceSettings& settings, const RapidExchange& exchanged, Time period);
     /// EGMStreamStart: messages without guidance. Returns why none can be sent, or "".
     std::string startStream(Time period);
     void stopStream();
@@ -87,9 +89,14 @@ class EgmProcess {
     bool isCorrecting() const;
     void tick();
     void schedule();
+    void takeData(Time now);
     void exchange();
     std::string sendState();
+    RobotData robotData();
+    motion::Pose correctionFrame() const;
+    void noteTool();
     void guide(Time now);
+    void beginWayBack(Time now);
     void followOn(Time now);
     void finish();
     bool mustTick() const;
@@ -102,6 +109,8 @@ class EgmProcess {
     bool isConnected_ = false;
     std::unique_ptr<Partner> partner_;
     std::optional<GuidanceSettings> settings_;
+    motion::Pose toolAtStart_; ///< TCP in world: frames of the type EGM_FRAME_TOOL stay where they were
+    RapidExchange exchanged_;
     std::optional<GuidanceOrder> order_;
     std::unique_ptr<GuidedArm> arm_;
     SensorData data_;
@@ -132,7 +141,7 @@ class EgmProcess {
     bool hasNewData_ = false;     ///< the source may have other data than at the latest period
     bool awaitsCondition_ = true; ///< the guidance ends when its condition is met
     Time began_ = 0, lastAnswer_ = 0, convergedSince_ = kNever;
-    std::string limit_; ///< reported last
+    EventBurst limits_, failures_; ///< targets that are not followed, messages that cannot be sent
     WaitQueue changed_;
 };
 

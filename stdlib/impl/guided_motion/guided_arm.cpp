@@ -20,6 +20,17 @@ struct AxisLimits {
     double lower, upper, speed, acceleration;
 };
 
+/// The speed with which an axis comes nearer to its goal: in proportion to the distance where that needs no more than its
+/// acceleration, further away as fast as it can still brake.
+double approach(double difference, double gain, double acceleration) {
+    constexpr double kReserve = 0.95; // periods are steps
+    if (gain <= 0) return 0;
+    const double braking = kReserve * acceleration, near = braking / (gain * gain);
+    const double distance = std::fabs(difference);
+    if (distance <= near) return gain * difference;
+    return std::copysign(std::sqrt(2 * braking * (distance - near / 2)), difference);
+}
+
 /// One period of an axis towards its goal, with `gain` times its distance a second and a speed that is asked for besides.
 void follow(double& position, double& speed, double goal, double gain, double speedAsked,
             const AxisLimits& limits) {
@@ -29,10 +40,8 @@ void follow(double& position, double& speed, double goal, double gain, double sp
         speed = 0;
         return;
     }
-    // From this speed the axis can still stop at its goal.
-    const double stopping = std::sqrt(2 * limits.acceleration * std::fabs(difference));
-    const double wanted = std::clamp(std::clamp(gain * difference, -stopping, stopping) + speedAsked,
-                                     -limits.speed, limits.speed);
+    const double wanted =
+        std::clamp(approach(difference, gain, limits.acceleration) + speedAsked, -limits.speed, limits.speed);
     const double change = limits.acceleration * kSeconds;
     speed = std::clamp(wanted, speed - change, speed + change);
     position = std::clamp(position + speed * kSeconds, std::min(limits.lower, position),
@@ -59,7 +68,7 @@ motion::Pose guidanceFrame(MotionDriver& motion, const motion::FrameSetup& frame
     const motion::Pose tcp = guidedTcp(motion, frames, joints);
     switch (type) {
     case 0: return frames.baseFrame;
-    case 1: return tcp;
+    case kToolFrame: return tcp;
     case 2:
         return tcp *
                inverse(frames.fromFlange(motion.system().kinematics().forward(joints.robax), joints.extax));
@@ -117,13 +126,39 @@ motion::Joints GuidedArm::targetOfPose(const SensorData& data) {
     return wanted_; // the last one that could be reached
 }
 
-/// Within the range of each axis and the deviation that is allowed.
-motion::Joints GuidedArm::limited(motion::Joints wanted) {
+/// The speed of each axis with which the TCP moves as asked for from where it is, deg/s.
+motion::Joints GuidedArm::speedOfPose(const SensorData& data) const {
+    motion::Joints speed = motion::Joints::zeros(now_.robax.size());
+    const auto& asked = data.poseSpeed;
+    if (std::all_of(asked.begin(), asked.end(), [](double value) { return value == 0; })) return speed;
+    motion::Pose next = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, now_);
+    next.pos = next.pos + motion::Vec3{asked[0], asked[1], asked[2]} * kSeconds;
+    const motion::Vec3 turn = motion::Vec3{asked[3], asked[4], asked[5]} * kSeconds;
+    if (const double angle = norm(turn); angle > 0)
+        next.rot = robot::fromAxisAngle(turn * (1 / angle), angle) * next.rot;
+    motion::RobTarget target;
+    target.pose = inverse(objectInWorld_) * sensorInWorld_ * next;
+    target.extax = now_.extax;
+    const motion::Pose flange = settings_.frames.toFlange(target.pose, now_.extax);
+    const auto joints = motion::solveTarget(motion_.system().kinematics(), flange, target, false, now_.robax);
+    if (!joints) return speed; // at the border of what can be reached
+    for (std::size_t i = 0; i < speed.size(); ++i)
+        speed[i] = ((*joints)[i] - now_.robax[i]) / kSeconds;
+    return speed;
+}
+
+/// The range of an axis and the deviation that is allowed.
+Window GuidedArm::rangeOf(std::size_t axis) const {
     const robot::RobotModel& model = motion_.model();
+    const double high = std::min(model.upperDeg[axis], start_.robax[axis] + settings_.maxDeviation);
+    const double low = std::max(model.lowerDeg[axis], start_.robax[axis] - settings_.maxDeviation);
+    return {std::min(low, high), high};
+}
+
+motion::Joints GuidedArm::limited(motion::Joints wanted) {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const double low = std::max(model.lowerDeg[i], start_.robax[i] - settings_.maxDeviation);
-        const double high = std::min(model.upperDeg[i], start_.robax[i] + settings_.maxDeviation);
-        const double inside = std::clamp(wanted[i], std::min(low, high), high);
+        const auto [low, high] = rangeOf(i);
+        const double inside = std::clamp(wanted[i], low, high);
         if (std::fabs(inside - wanted[i]) > kFar && limit_.empty())
             limit_ =
                 fmt::format("axis {} is asked to go to {:.2f} and may go from {:.2f} to {:.2f}. Send other "
@@ -143,22 +178,33 @@ void GuidedArm::follow(const SensorData& data, double share) {
     const double part =
         settings_.filterHz > 0 ? 1 - std::exp(-2 * std::numbers::pi * settings_.filterHz * kSeconds) : 1;
     isSteady_ = share >= 1;
+    const motion::Joints asked = speedAsked(data);
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         filtered_[i] += part * (wanted_[i] - filtered_[i]);
         if (std::fabs(wanted_[i] - filtered_[i]) < kNear) filtered_[i] = wanted_[i];
-        const double asked =
-            settings_.mode == GuidanceMode::Joint && i < data.jointSpeed.size() ? data.jointSpeed[i] : 0;
-        moveAxis(i, filtered_[i], order_.gain * share, asked);
+        moveAxis(i, filtered_[i], order_.gain * share, asked[i]);
         isSteady_ = isSteady_ && speed_[i] == 0 && (filtered_[i] == wanted_[i]);
     }
     moveAdditional(data, order_.gain * share);
     place(speedNow());
 }
 
+/// The speed of each axis that the data ask for, deg/s.
+motion::Joints GuidedArm::speedAsked(const SensorData& data) const {
+    if (settings_.mode == GuidanceMode::Pose) return speedOfPose(data);
+    motion::Joints speed = motion::Joints::zeros(now_.robax.size());
+    for (std::size_t i = 0; i < speed.size(); ++i) {
+        const auto number = static_cast<std::size_t>(motion_.system().kinematics().axisNumber(i));
+        speed[i] = number <= data.jointSpeed.size() ? data.jointSpeed[number - 1] : data.additionalSpeed[0];
+    }
+    return speed;
+}
+
 void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedAsked) {
     const robot::RobotModel& model = motion_.model();
-    const AxisLimits limits{model.lowerDeg[axis], model.upperDeg[axis],
-                            std::min(settings_.maxSpeed, model.maxSpeed[axis]), model.maxAcceleration[axis]};
+    const Window range = rangeOf(axis);
+    const AxisLimits limits{range.low, range.high, std::min(settings_.maxSpeed, model.maxSpeed[axis]),
+                            model.maxAcceleration[axis]};
     ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedAsked, limits);
 }
 
@@ -177,7 +223,7 @@ void GuidedArm::moveAdditional(const SensorData& data, double gain) {
                             "Send other values, or give \\MaxPosDeviation a larger one",
                             static_cast<char>('a' + i), wanted, low, high);
         ::rt::lib::follow(
-            now_.extax[i], additionalSpeed_[i], goal, gain, 0,
+            now_.extax[i], additionalSpeed_[i], goal, gain, data.additionalSpeed[i],
             {low, high, std::min(settings_.maxSpeed, axes[i].maxSpeed), axes[i].maxAcceleration});
         isSteady_ = isSteady_ && additionalSpeed_[i] == 0;
     }
@@ -272,13 +318,6 @@ bool GuidedArm::isConverged() const {
             return false;
     }
     return true;
-}
-
-double GuidedArm::utilization() const {
-    double most = 0;
-    for (std::size_t i = 0; i < speed_.size(); ++i)
-        most = std::max(most, std::fabs(speed_[i]) / motion_.model().maxSpeed[i] * 100);
-    return most;
 }
 
 } // namespace rt::lib

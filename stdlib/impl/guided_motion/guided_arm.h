@@ -8,6 +8,9 @@
 
 namespace rt::lib {
 
+/// egmframetype of the tool.
+inline constexpr int kToolFrame = 1;
+
 /// Allowed difference between what is asked for and where the robot is: deg for axes and rotations, mm for positions.
 struct Window {
     double low = 0, high = 0;
@@ -32,7 +35,7 @@ struct GuidanceOrder {
     std::array<bool, 7> conditions{}; ///< which of the windows count
     double conditionTime = 1;         ///< s
     double rampIn = 0, rampOut = 0;   ///< s
-    double gain = 20;                 ///< 1/s: speed for each deg of difference
+    double gain = 40;                 ///< 1/s: speed for each deg of difference
     motion::Pose offset;              ///< added to the pose that is asked for
     bool hasCondition() const;
 };
@@ -57,8 +60,6 @@ class GuidedArm {
     bool isConverged() const;
     /// The program has ordered a movement, or the arm cannot be guided any more.
     bool isLost() const { return lost_; }
-    /// Fastest axis in percent of its highest speed.
-    double utilization() const;
     /// Why the target is not followed; "" when it is.
     const std::string& limit() const { return limit_; }
 
@@ -66,6 +67,9 @@ class GuidedArm {
     motion::Joints target(const SensorData& data);
     motion::Joints targetOfPose(const SensorData& data);
     motion::Joints limited(motion::Joints wanted);
+    Window rangeOf(std::size_t axis) const;
+    motion::Joints speedAsked(const SensorData& data) const;
+    motion::Joints speedOfPose(const SensorData& data) const;
     void moveAxis(std::size_t axis, double goal, double gain, double speedAsked);
     void moveAdditional(const SensorData& data, double gain);
     void place(const motion::JointTarget& speed);

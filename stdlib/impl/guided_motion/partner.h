@@ -25,19 +25,35 @@ struct SensorData {
     std::array<std::optional<double>, 6> pose{};
     /// Orientation as a quaternion, instead of the angles.
     std::optional<motion::Quat> orientation;
-    /// deg/s for axes 1 to 6: the speed to which the correction of the position is added.
-    std::array<double, 6> jointSpeed{};
+    /// Speeds to which the correction of the position is added: of axes 1 to 6 (deg/s); of the pose in the frame of the sensor (mm/s
+    /// along, deg/s about x, y, z); of eax_a to eax_f (deg/s or mm/s).
+    std::array<double, 6> jointSpeed{}, poseSpeed{}, additionalSpeed{};
+    /// False: the data are for RAPID alone, and the last target stays.
+    bool hasTarget = true;
+    /// For RAPID (\DIFromSensor, \DataFromSensor; at most 40 numbers).
+    std::optional<bool> digital;
+    std::vector<double> numbers;
+};
+
+/// The place of the robot as messages give it.
+struct RobotPlace {
+    std::array<double, 6>
+        joints{}; ///< axes 1 to 6, deg (mm for a linear axis); 0 for those that the arm does not have
+    std::vector<double>
+        external; ///< eax_a (axis 7 of a seven-axis arm) and further ones up to the last that is connected
+    motion::Pose pose; ///< in the correction frame
 };
 
 /// The state of the robot that is sent to a partner.
 struct RobotData {
-    motion::JointTarget feedback, planned;  ///< deg, mm
-    motion::Pose feedbackPose, plannedPose; ///< in the correction frame
-    int64_t nanoseconds = 0;                ///< virtual time
-    int64_t calendar = 0;                   ///< whole seconds since 1970 of the controller
-    bool motorsOn = true, isGuided = false, isConverged = false, programRuns = true;
-    double utilization = 0; ///< fastest axis in percent of its highest speed
-    uint32_t moveIndex = 0; ///< movement instructions ordered so far
+    RobotPlace feedback, planned;
+    int64_t nanoseconds = 0; ///< virtual time
+    int64_t calendar = 0;    ///< whole seconds since 1970 of the controller
+    bool motorsOn = true, isGuided = false, isConverged = false, programRuns = true, hasCollided = false;
+    double utilization = 0;      ///< fastest axis in percent of its highest speed
+    uint32_t moveIndex = 0;      ///< movement instructions ordered so far
+    bool digital = false;        ///< \DOToSensor
+    std::vector<double> numbers; ///< \DataToSensor
 };
 
 class Partner {

@@ -4,6 +4,8 @@
 
 #include "runtime/log/event_log.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace rt::lib {
@@ -16,7 +18,7 @@ UdpPartner::UdpPartner(net::Network& network, const Task& owner, std::string dev
 void UdpPartner::begin() {
     socket_ = std::make_unique<net::Socket>(network_, owner_, true);
     sequence_ = 0;
-    refused_ = false;
+    refused_ = {};
     if (localPort_ != 0) {
         const net::Outcome outcome = socket_->bind({net::kAnyAddress, localPort_});
         if (!outcome.ok()) refuse("its local port cannot be used: " + outcome.why);
@@ -24,21 +26,37 @@ void UdpPartner::begin() {
     (void)socket_->connect(address_); // of datagrams: those of others do not count
 }
 
+/// All that has come, one socket's room at most.
 bool UdpPartner::receive(SensorData& data) {
+    if (!socket_) return false;
     bool isNew = false;
+    data.hasTarget = false;
     net::Datagram datagram;
-    while (socket_ && socket_->receiveFrom(datagram).ok()) {
-        SensorData received;
-        const std::string why = decodeSensorMessage(datagram.bytes, mode_, received);
-        if (!why.empty()) {
-            refuse(why);
-            continue;
-        }
-        data = received;
-        isNew = true;
-        refused_ = false;
-    }
+    for (std::size_t i = 0; i < net::Socket::kMostDatagrams && socket_->receiveFrom(datagram).ok(); ++i)
+        isNew = take(datagram, data) || isNew;
+    if (const auto sender = socket_->takeForeign())
+        refuse(fmt::format("a datagram came from {} and not from {}", net::addressText(*sender),
+                           net::addressText(address_)));
     return isNew;
+}
+
+/// False when it cannot be used. Parts that the datagram does not have keep the values of earlier ones.
+bool UdpPartner::take(const net::Datagram& datagram, SensorData& data) {
+    SensorData received;
+    std::string why = decodeSensorMessage(datagram.bytes, mode_, received);
+    if (datagram.sent > datagram.bytes.size()) why = "a datagram is too long for a message of EGM";
+    if (!why.empty()) {
+        refuse(why);
+        return false;
+    }
+    refused_.note();
+    if (received.digital) data.digital = received.digital;
+    if (!received.numbers.empty()) data.numbers = std::move(received.numbers);
+    if (!received.hasTarget) return true;
+    received.digital = data.digital;
+    received.numbers = std::move(data.numbers);
+    data = std::move(received);
+    return true;
 }
 
 std::string UdpPartner::send(const RobotData& data) {
@@ -51,7 +69,7 @@ std::string UdpPartner::send(const RobotData& data) {
 
 /// One event for a burst.
 void UdpPartner::refuse(const std::string& why) {
-    if (std::exchange(refused_, true)) return;
+    if (!refused_.begins(network_.scheduler().now())) return;
     network_.log().write(EventId::EgmDataRefused, &owner_, {device_, why});
 }
 

@@ -2,6 +2,7 @@
 // A program that guides the robot by UDP (EGMSetupUC): the controller sends to the address that SIO.cfg gives the device,
 // and takes the answers that come from there.
 
+#include "stdlib/impl/guided_motion/event_burst.h"
 #include "stdlib/impl/guided_motion/partner.h"
 
 #include "runtime/net/socket.h"
@@ -23,6 +24,7 @@ class UdpPartner final : public Partner {
     bool answers() const override { return true; }
 
   private:
+    bool take(const net::Datagram& datagram, SensorData& data);
     void refuse(const std::string& why);
 
     net::Network& network_;
@@ -33,7 +35,7 @@ class UdpPartner final : public Partner {
     GuidanceMode mode_;
     std::unique_ptr<net::Socket> socket_; ///< during a session
     uint32_t sequence_ = 0;
-    bool refused_ = false; ///< since the last data that could be used
+    EventBurst refused_;
 };
 
 } // namespace rt::lib

@@ -140,7 +140,7 @@ TEST_CASE("a message that is cut anywhere is refused or lacks what came after", 
 
 TEST_CASE("the message of the robot begins with its header and fits a datagram", "[egm]") {
     RobotData data;
-    data.feedback.robax = {10, 20, 30, 40, 50, 60};
+    data.feedback.joints = {10, 20, 30, 40, 50, 60};
     data.planned = data.feedback;
     data.nanoseconds = 300'000'000; // 300 ms are AC 02
     const std::string bytes = rt::lib::encodeRobotMessage(data, 5);
