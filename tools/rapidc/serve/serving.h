@@ -6,6 +6,7 @@
 #include "tools/rws/front_door.h"
 #include "tools/rws/plant_services.h"
 #include "tools/rws/rapid_services.h"
+#include "tools/rws/subscriptions.h"
 
 #include <memory>
 #include <string>
@@ -35,6 +36,7 @@ class Serving {
     rws::Subscribables subscribables_;
     rws::RapidServices rapid_;
     rws::PlantServices plant_;
+    rws::Subscriptions subscriptions_;
     std::unique_ptr<rws::FrontDoor> door_;
     http::Server server_; ///< last: it ends first
     uint16_t httpPort_ = 0, httpsPort_ = 0, webPort_ = 0;
