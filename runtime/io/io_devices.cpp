@@ -28,6 +28,7 @@ void IoDevices::configure(const CfgFile& file) {
                 device.trustLevel = instance.text("TrustLevel", instance.text("UnitTrustLevel"));
             } else if (isNetworkType(section.type)) {
                 networks_.try_emplace(upperCase(name), false);
+                networkNames_.try_emplace(upperCase(name), name);
             } else if (isTrustType(section.type)) {
                 denyDeactivation_[upperCase(name)] = instance.flag("DenyDeactivate");
             }
@@ -37,6 +38,30 @@ void IoDevices::configure(const CfgFile& file) {
 
 void IoDevices::addDevice(std::string_view name) {
     if (!name.empty()) deviceFor(name);
+}
+
+std::vector<std::string> IoDevices::deviceNames() const {
+    std::vector<std::string> names;
+    for (const auto& [key, device] : devices_)
+        names.push_back(device.name);
+    return names;
+}
+
+std::vector<std::string> IoDevices::networkNames() const {
+    std::map<std::string, std::string> names = networkNames_;
+    for (const auto& [key, device] : devices_)
+        names.try_emplace(upperCase(networkOf(device.name)), networkOf(device.name));
+    std::vector<std::string> result;
+    for (const auto& [key, name] : names)
+        result.push_back(name);
+    return result;
+}
+
+std::string IoDevices::networkOf(std::string_view name) const {
+    const Device* device = find(name);
+    if (device == nullptr || device->network.empty()) return "Local";
+    const auto known = networkNames_.find(upperCase(device->network));
+    return known == networkNames_.end() ? device->network : known->second;
 }
 
 const IoDevices::Device* IoDevices::find(std::string_view name) const {

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rt {
 
@@ -24,6 +25,13 @@ class IoDevices {
     void configure(const CfgFile& file);
     /// A device that only a signal names.
     void addDevice(std::string_view name);
+
+    /// Names as they are written, sorted without regard to case.
+    std::vector<std::string> deviceNames() const;
+    /// Those of the configuration and of devices.
+    std::vector<std::string> networkNames() const;
+    /// The network of a device; "Local" when the configuration does not say.
+    std::string networkOf(std::string_view device) const;
 
     bool isDevice(std::string_view name) const { return find(name) != nullptr; }
     /// Of the configuration, or one that every controller has.
@@ -63,6 +71,7 @@ class IoDevices {
     std::function<void(std::string_view, bool)> apply_;
     std::map<std::string, Device> devices_;        // by name in upper case
     std::map<std::string, bool> networks_;         // upper case -> in error
+    std::map<std::string, std::string> networkNames_; // upper case -> as written
     std::map<std::string, bool> denyDeactivation_; // by trust level in upper case
     WaitQueue changed_;
 };

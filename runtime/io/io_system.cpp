@@ -212,6 +212,27 @@ IoResult IoSystem::force(SignalId id, double value) {
     return IoResult::Ok;
 }
 
+void IoSystem::simulate(SignalId id, bool on) {
+    Signal& signal = *signals_[static_cast<std::size_t>(id)];
+    if (signal.isSimulated == on) return;
+    if (on) signal.plantValue = signal.value;
+    signal.isSimulated = on;
+    if (!on && isInput(signal.config.type)) assign(id, signal.plantValue, true);
+}
+
+bool IoSystem::isSimulated(SignalId id) const {
+    return signals_[static_cast<std::size_t>(id)]->isSimulated;
+}
+
+IoResult IoSystem::setByClient(SignalId id, double value) {
+    if (id < 0 || id >= static_cast<SignalId>(signals_.size())) return IoResult::NoSignal;
+    const Signal& signal = *signals_[static_cast<std::size_t>(id)];
+    if (!signal.isSimulated || !isInput(signal.config.type)) return force(id, value);
+    const IoResult result = normalise(signal.config, value);
+    if (result == IoResult::Ok) assign(id, value, true);
+    return result;
+}
+
 // ---- Changes -------------------------------------------------------------------------------------------------------
 
 WaitQueue& IoSystem::changed(SignalId id) {
@@ -232,6 +253,14 @@ void IoSystem::removeListener(uint64_t number) {
 }
 
 void IoSystem::change(SignalId id, double value, bool propagate) {
+    Signal& signal = *signals_[static_cast<std::size_t>(id)];
+    if (signal.isSimulated && isInput(signal.config.type))
+        signal.plantValue = value;
+    else
+        assign(id, value, propagate);
+}
+
+void IoSystem::assign(SignalId id, double value, bool propagate) {
     Signal& signal = *signals_[static_cast<std::size_t>(id)];
     const double old = signal.value;
     if (old == value) return;

@@ -136,6 +136,14 @@ class IoSystem {
     /// does.
     IoResult force(SignalId id, double value);
 
+    /// A person or client simulates the signal. The value of a simulated input is that of setByClient() alone; what the plant
+    /// says meanwhile (stimulus, cross connections) is kept, and is its value when the simulation ends. An output keeps
+    /// following the program: on a controller its device is then not told, and there is none here.
+    void simulate(SignalId id, bool on);
+    bool isSimulated(SignalId id) const;
+    /// As force(), but a simulated input takes the value, too.
+    IoResult setByClient(SignalId id, double value);
+
     /// The devices that the signals belong to. Programs can neither read nor set signals of a device that is deactivated or has
     /// lost contact; their values stay.
     IoDevices& devices() { return devices_; }
@@ -173,6 +181,7 @@ class IoSystem {
     void cancelPending(Signal& signal);
     void setReachable(std::string_view device, bool reachable);
     void change(SignalId id, double value, bool propagate);
+    void assign(SignalId id, double value, bool propagate);
     void propagateFrom(SignalId id);
     double evaluate(const CrossConnection& connection) const;
     bool reaches(SignalId from, SignalId to) const;

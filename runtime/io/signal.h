@@ -15,6 +15,8 @@ struct IoSystem::Signal {
     bool deviceOff = false; ///< or without contact
     bool invalid = false;
     bool driven = false; ///< result of a cross connection
+    bool isSimulated = false;
+    double plantValue = 0; ///< of a simulated input: what it would be without the simulation
     Pending pending = Pending::None;
     EventToken event = 0;
     WaitQueue changed;

@@ -19,7 +19,8 @@ constexpr std::size_t kPage = 100, kLargestPage = 200;
 
 class DataWatch final : public Watch {
   public:
-    DataWatch(service::DataWatches& watches, service::DataWatches::Token token) : watches_(watches), token_(token) {}
+    DataWatch(service::DataWatches& watches, service::DataWatches::Token token)
+        : watches_(watches), token_(token) {}
     ~DataWatch() override { watches_.remove(token_); }
     DataWatch(const DataWatch&) = delete;
     DataWatch& operator=(const DataWatch&) = delete;
@@ -75,11 +76,13 @@ bool splitType(std::string text, std::string& name, std::vector<int32_t>& dims) 
 
 void SymbolResources::addTo(Router& router, Subscribables& subscribables) {
     const Handler value = [this](const Request& request) { return this->value(request); };
-    const Handler set = access_.guarded(Domain::Rapid, [this](const Request& request) { return setValue(request); });
+    const Handler set =
+        access_.guarded(Domain::Rapid, [this](const Request& request) { return setValue(request); });
     const Handler properties = [this](const Request& request) { return this->properties(request); };
     const Handler validate = [this](const Request& request) { return this->validate(request); };
     const Handler search = [this](const Request& request) { return this->search(request); };
-    const std::string oldData = "/rw/rapid/symbol/data/{symbol*}", newData = "/rw/rapid/symbol/{symbol*}/data";
+    const std::string oldData = "/rw/rapid/symbol/data/{symbol*}",
+                      newData = "/rw/rapid/symbol/{symbol*}/data";
     router.get(Dialect::V1, oldData, value);
     router.get(Dialect::V2, newData, value);
     for (const char* action : {"set", "setInitValue", "set-init-value"})
@@ -97,6 +100,8 @@ void SymbolResources::addTo(Router& router, Subscribables& subscribables) {
     };
     subscribables.add({oldData, "value", true, Dialect::V1, open});
     subscribables.add({newData, "value", true, Dialect::V2, open});
+    subscribables.add(
+        {"/rw/rapid/symbol/{symbol*}", "value", true, Dialect::V2, open}); // some clients leave "data" out
 }
 
 Reply SymbolResources::unknown(const Request& request, const std::string& why) const {
@@ -110,7 +115,9 @@ Reply SymbolResources::value(const Request& request) {
     const FoundData found = findData(controller_, *path);
     if (found.data == nullptr) return unknown(request, found.problem);
     const std::optional<std::string> text = valueOf(found);
-    if (!text) return Reply::refuse(ReturnCode::BadParameter, std::string("Data of type ") + found.type->name + " have no value");
+    if (!text)
+        return Reply::refuse(ReturnCode::BadParameter,
+                             std::string("Data of type ") + found.type->name + " have no value");
     Document document;
     document.entries.push_back(valueEntry("rap-data", path->url(), *text));
     return Reply::of(std::move(document));
@@ -138,10 +145,12 @@ Reply SymbolResources::validate(const Request& request) {
     if (!splitType(given, name, dims)) return badParameter("datatype", "a data type such as num or num{3}");
     if (!request.form.has("value")) return badParameter("value", "a value as RAPID text");
     static constexpr rt::TypeDesc kNum{"num", "num", rt::DescKind::Num, 4, 0, {}, nullptr, nullptr, nullptr};
-    static constexpr rt::TypeDesc kDnum{"dnum", "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr, nullptr, nullptr};
-    static constexpr rt::TypeDesc kBool{"bool", "bool", rt::DescKind::Bool, 1, 0, {}, nullptr, nullptr, nullptr};
-    static constexpr rt::TypeDesc kString{"string", "string", rt::DescKind::String, sizeof(rt::String), 0, {}, nullptr,
-                                          nullptr, nullptr};
+    static constexpr rt::TypeDesc kDnum{"dnum",  "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr,
+                                        nullptr, nullptr};
+    static constexpr rt::TypeDesc kBool{"bool",  "bool", rt::DescKind::Bool, 1, 0, {}, nullptr,
+                                        nullptr, nullptr};
+    static constexpr rt::TypeDesc kString{
+        "string", "string", rt::DescKind::String, sizeof(rt::String), 0, {}, nullptr, nullptr, nullptr};
     const rt::TypeDesc* type = nullptr;
     for (const rt::TypeDesc* known : {&kNum, &kDnum, &kBool, &kString})
         if (sameName(name, known->name)) type = known;
@@ -175,23 +184,29 @@ Reply SymbolResources::search(const Request& request) {
     for (std::size_t i = page->start; i < end; ++i)
         document.entries.push_back(symbolEntry(found[i], request.dialect, "-li"));
     if (end < found.size()) {
-        const char* path = request.dialect == Dialect::V1 ? "symbols?action=search-symbols&" : "symbols/search?";
+        const char* path =
+            request.dialect == Dialect::V1 ? "symbols?action=search-symbols&" : "symbols/search?";
         document.next = fmt::format("{}start={}&limit={}", path, end, page->limit);
     }
     return Reply::of(std::move(document));
 }
 
-std::optional<Failure> SymbolResources::subscribe(const Request& request, const Changed& changed, Subscription& out) {
+std::optional<Failure> SymbolResources::subscribe(const Request& request, const Changed& changed,
+                                                  Subscription& out) {
     const std::optional<DataPath> path = DataPath::read(request.parameter("symbol"));
     const FoundData found = path ? findData(controller_, *path) : FoundData{};
     if (found.data == nullptr) return Failure{ReturnCode::UnknownSymbol, "There are no such data"};
     const std::optional<std::string> value = valueOf(found);
     if (!found.isPersistent || !value)
         return Failure{ReturnCode::BadParameter, "Only values of persistents can be subscribed"};
-    const std::string url = path->url();
-    out.initial.push_back(valueEntry("rap-value-ev", url, *value));
-    const auto token = watches_.add(
-        *path, [changed, url](const std::string& text) { changed(valueEntry("rap-value-ev", url, text)); });
+    // clients of the two dialects look for different classes
+    const bool old = request.dialect == Dialect::V1;
+    const auto entry = [old, url = path->url()](const std::string& text) {
+        return old ? valueEntry("rap-data", url, text) : valueEntry("rap-value-ev", "value", text);
+    };
+    out.initial.push_back(entry(*value));
+    const auto token =
+        watches_.add(*path, [changed, entry](const std::string& text) { changed(entry(text)); });
     out.watch = std::make_unique<DataWatch>(watches_, token);
     return std::nullopt;
 }

@@ -58,7 +58,8 @@ Handle MessageQueues::slotOf(const Task& task) const {
 
 MessageQueue* MessageQueues::find(Handle slot) {
     if (slot < 1 || slot > static_cast<Handle>(queues_.size())) return nullptr;
-    return queues_[static_cast<std::size_t>(slot - 1)].get();
+    MessageQueue* queue = queues_[static_cast<std::size_t>(slot - 1)].get();
+    return queue->task != nullptr || queue->exists ? queue : nullptr;
 }
 
 Handle MessageQueues::findByName(std::string_view name) const {
@@ -68,8 +69,25 @@ Handle MessageQueues::findByName(std::string_view name) const {
     return 0;
 }
 
+bool MessageQueues::addOutside(std::string name, std::size_t maxSize, std::function<bool(Message)> deliver) {
+    if (findByName(name) != 0) return false;
+    auto queue = std::make_unique<MessageQueue>();
+    queue->name = std::move(name);
+    queue->maxSize = maxSize;
+    queue->deliver = std::move(deliver);
+    queues_.push_back(std::move(queue));
+    return true;
+}
+
+/// Its slot is not given to another queue: programs may keep it.
+void MessageQueues::removeOutside(std::string_view name) {
+    for (const auto& queue : queues_)
+        if (queue->task == nullptr && rapid::config::sameName(queue->name, name)) queue->exists = false;
+}
+
 MessageQueues::Sent MessageQueues::send(MessageQueue& target, Message message) {
     if (message.size() > target.maxSize) return Sent::TooLarge;
+    if (target.deliver) return target.deliver(std::move(message)) ? Sent::Ok : Sent::Full;
     if (target.answerFrom == message.sender && target.answerFrom != 0 && !target.answer &&
         target.answerType == message.typeName()) {
         target.answer = std::make_unique<Message>(std::move(message));

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -35,8 +36,8 @@ struct Message {
 };
 
 struct MessageQueue {
-    std::string name; ///< "RMQ_T_ROB1"
-    Task* task = nullptr;
+    std::string name;     ///< "RMQ_T_ROB1"
+    Task* task = nullptr; ///< null: of a client outside the controller
     QueueMode mode = QueueMode::Open;
     bool exists = true; ///< false: RmqType None
     std::size_t maxMessages = 5, maxSize = 400;
@@ -47,6 +48,8 @@ struct MessageQueue {
     Handle answerFrom = 0;
     std::string answerType;
     std::unique_ptr<Message> answer;
+    /// Of a client outside: takes its messages.
+    std::function<bool(Message)> deliver;
 };
 
 /// The queues of a controller, and the messages that variables of its programs hold.
@@ -61,6 +64,11 @@ class MessageQueues {
     MessageQueue* find(Handle slot);
     /// Without regard to case; 0 when there is no such queue.
     Handle findByName(std::string_view name) const;
+
+    /// The tasks find a queue of a client outside by this name; `deliver` is false when it is full. False: the name is taken.
+    bool addOutside(std::string name, std::size_t maxSize, std::function<bool(Message)> deliver);
+    void removeOutside(std::string_view name);
+    const std::vector<std::unique_ptr<MessageQueue>>& all() const { return queues_; }
 
     enum class Sent : uint8_t { Ok, TooLarge, Full };
     /// Delivers to the waiting RMQSendWait, to the queue (posting the interrupt ordered for the type), or, when a task

@@ -1,0 +1,112 @@
+#include "tools/rws/request_values.h"
+
+#include "config/text_util.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rapidc::rws {
+
+namespace {
+
+using rapid::config::sameName;
+using rapid::config::trimmed;
+
+constexpr std::size_t kMostDigits = 9;
+
+} // namespace
+
+std::optional<double> numberIn(std::string_view text) {
+    double value = 0;
+    if (text.empty() || text.size() > 64 || !rapid::config::parseNumber(trimmed(text), value) || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+std::optional<std::size_t> countIn(std::string_view text) {
+    if (text.empty() || text.size() > kMostDigits) return std::nullopt;
+    std::size_t value = 0;
+    for (const char c : text) {
+        if (c < '0' || c > '9') return std::nullopt;
+        value = value * 10 + static_cast<std::size_t>(c - '0');
+    }
+    return value;
+}
+
+std::optional<std::vector<double>> numbersIn(std::string_view text, std::size_t count) {
+    text = trimmed(text);
+    if (text.starts_with('[') != text.ends_with(']')) return std::nullopt;
+    if (text.starts_with('[')) text = text.substr(1, text.size() - 2);
+    std::vector<double> numbers;
+    while (numbers.size() < count) {
+        const std::size_t comma = text.find(',');
+        const auto number = numberIn(text.substr(0, comma));
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+        if (comma == std::string_view::npos) return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+        text.remove_prefix(comma + 1);
+    }
+    return std::nullopt;
+}
+
+std::optional<bool> flagIn(std::string_view text) {
+    for (const char* word : {"true", "1", "on"})
+        if (sameName(text, word)) return true;
+    for (const char* word : {"false", "0", "off"})
+        if (sameName(text, word)) return false;
+    return std::nullopt;
+}
+
+std::string shown(double value) {
+    if (value == 0) value = 0; // no "-0"
+    std::string text = fmt::format("{}", static_cast<float>(value));
+    std::replace(text.begin(), text.end(), 'e', 'E'); // 9E+09, as RAPID writes it
+    return text;
+}
+
+std::string shownExactly(double value) {
+    if (value == 0) value = 0;
+    return fmt::format("{}", value);
+}
+
+std::string fieldOf(const Request& request, std::string_view name) {
+    return request.form.has(name) ? request.form.text(name) : request.query.text(name);
+}
+
+std::string escapedSegment(std::string_view segment) {
+    std::string escaped;
+    for (const char c : segment) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool isLetter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9');
+        if (isLetter || c == '-' || c == '.' || c == '_' || c == '~' || c == '$')
+            escaped += c;
+        else
+            escaped += fmt::format("%{:02X}", byte);
+    }
+    return escaped;
+}
+
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page) {
+    const std::string startText = request.query.text("start"), limitText = request.query.text("limit");
+    const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
+    const auto limit = limitText.empty() ? std::optional(most) : countIn(limitText);
+    if (!start || !limit || *limit == 0)
+        return Failure{ReturnCode::BadPage, "start is a number from 0, limit one from 1", 0};
+    if (*start > 0 && *start >= total)
+        return Failure{ReturnCode::BadPage, fmt::format("start is {}, but there are {} entries", *start, total), 0};
+    const std::size_t size = std::min(*limit, most);
+    page.begin = *start;
+    page.end = std::min(total, *start + size);
+    if (page.end == total) return std::nullopt;
+    for (const std::string& segment : request.segments)
+        page.next += '/' + escapedSegment(segment);
+    page.next += fmt::format("?start={}&limit={}", page.end, size);
+    for (const auto& [name, value] : request.query.all()) // json=1, lang=en
+        if (!sameName(name, "start") && !sameName(name, "limit"))
+            page.next += fmt::format("&{}={}", escapedSegment(name), escapedSegment(value));
+    return std::nullopt;
+}
+
+} // namespace rapidc::rws

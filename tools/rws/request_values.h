@@ -1,0 +1,42 @@
+#pragma once
+// Values in requests and replies of the plant's resources: numbers, lists of numbers, pages.
+
+#include "tools/rws/message.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rapidc::rws {
+
+/// A finite number; none for every other text.
+std::optional<double> numberIn(std::string_view text);
+/// A whole number of at most nine digits, not negative.
+std::optional<std::size_t> countIn(std::string_view text);
+/// "[1,2,3]" or "1,2,3", of `count` finite numbers; none for every other text.
+std::optional<std::vector<double>> numbersIn(std::string_view text, std::size_t count);
+/// "true", "1", "on"; "false", "0", "off"; in any case.
+std::optional<bool> flagIn(std::string_view text);
+
+/// As numbers are shown: the shortest text that reads back as the same binary32 value.
+std::string shown(double value);
+/// With all the digits that a double has, for results in metres and radians.
+std::string shownExactly(double value);
+
+/// A part of a list: ?start= (number of the first one, from 0) and ?limit=.
+struct ListPage {
+    std::size_t begin = 0, end = 0; ///< of the entries
+    std::string next;               ///< href of the next page; "" = none
+};
+/// The page that a request asks for, of a list of `total` entries. Never more than `most` entries; a limit of 0 and a start that
+/// is not a number are failures.
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page);
+
+/// The value of a field of the form or, when it has none of this name, of the query.
+std::string fieldOf(const Request& request, std::string_view name);
+/// A segment of a path, with everything escaped that is not plain.
+std::string escapedSegment(std::string_view segment);
+
+} // namespace rapidc::rws

@@ -1,0 +1,23 @@
+#pragma once
+// Work on the entries of an open folder of the host, by name and without following links: nothing outside of it can be reached,
+// whatever happens to links and folders meanwhile. Results are 0 or the number of the error.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rapidc::service {
+
+/// The names in a folder that is open for reading, without "." and "..". False with errno when they cannot be read.
+bool namesIn(int folder, std::vector<std::string>& names);
+/// The name of a temporary file or folder of this program: what was not finished.
+bool isUnfinished(std::string_view name);
+
+/// Writes a file next to `name`, flushes it to the disk and renames it.
+int replaceIn(int folder, const std::string& name, std::string_view bytes);
+/// Removes a file, a link, or a folder with all that it holds.
+int removeIn(int folder, const std::string& name);
+/// Copies a file or a folder with all that it holds, beside it. Links in it are left out. The copy is complete or absent.
+int copyIn(int folder, const std::string& name, const std::string& target);
+
+} // namespace rapidc::service
