@@ -21,7 +21,7 @@ PlantServices::PlantServices(service::VirtualController& controller, const Acces
       ioUnits_(controller), mechanicalUnits_(controller, manual_, access), kinematics_(manual_),
       configurationPages_(controller, configuration_, volumes_, progress_, access), eventLog_(journal_), system_(controller, volumes_),
       files_(volumes_), backups_(controller, configuration_, volumes_, progress_) {
-    for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM", "DATA"})
+    for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"})
         if (const std::string folder = controller.folderOf(volume); !folder.empty()) (void)volumes_.add(volume, folder);
 }
 
