@@ -27,7 +27,7 @@ VirtualController::~VirtualController() {
 
 std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edits, std::string& problems,
                                                           rt::ExitStatus& status) {
-    Inputs inputs = settings_.inputs;
+    Inputs inputs = inputs_;
     inputs.requireMain = true;
     inputs.adjust = [&edits](std::vector<rapid::sema::TaskInput>& tasks) { edits.applyTo(tasks); };
     auto compilation = checkInputs(inputs);
@@ -51,6 +51,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
 }
 
 rt::ExitStatus VirtualController::open() {
+    inputs_ = settings_.inputs;
     std::string problems;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     program_ = compile(edits_, problems, status);
@@ -182,14 +183,22 @@ std::string VirtualController::folderOf(const std::string& volume) {
 Refusal VirtualController::restart(RestartMode mode) {
     auto next = std::make_unique<Succession>();
     next->programStart = next->motorsOn = settings_.programStart;
-    if (mode == RestartMode::Warm) {
-        next->state = core_->captureState();
-    } else {
+    if (release_) release_();
+    if (mode == RestartMode::Warm) next->state = core_->captureState();
+    if (mode == RestartMode::Cold || isConfigurationChanged_) {
         std::string problems;
         rt::ExitStatus status = rt::ExitStatus::Ended;
-        edits_.clear();
-        next->program = compile(edits_, problems, status);
-        if (!next->program) return "the program in its files has mistakes:\n" + problems;
+        const ModuleEdits edits = mode == RestartMode::Cold ? ModuleEdits() : edits_;
+        Inputs before = inputs_;
+        inputs_ = settings_.inputs;
+        if (chooseInputs_) chooseInputs_(inputs_);
+        next->program = compile(edits, problems, status);
+        if (!next->program) {
+            inputs_ = std::move(before);
+            return "the program has mistakes:\n" + problems;
+        }
+        edits_ = edits;
+        isConfigurationChanged_ = false;
     }
     panel_.motors = next->motorsOn ? MotorState::On : MotorState::Off;
     emergencyStop_ = safeguardOpen_ = false;

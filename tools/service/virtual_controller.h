@@ -67,6 +67,12 @@ class VirtualController {
     const LoadedProgram& program() const { return *program_; }
     const Settings& settings() const { return settings_; }
     Observers& observers() { return observers_; }
+    /// Called before the present controller is replaced, while its state is still to be taken: what refers to it has to be given up.
+    void onRelease(std::function<void()> action) { release_ = std::move(action); }
+    /// Called before the compilation of a restart: may choose other files of the configuration.
+    void onInputs(std::function<void(Inputs&)> action) { chooseInputs_ = std::move(action); }
+    /// The files of the configuration are other ones now: the next restart compiles anew.
+    void noteConfiguration() { isConfigurationChanged_ = true; }
     /// The folder of the host that a volume is, e.g. "HOME"; "" when there is none of this name.
     std::string folderOf(const std::string& volume);
 
@@ -167,6 +173,10 @@ class VirtualController {
         uint32_t line = 0;
     };
     std::optional<Cursor> cursor_; ///< where the program pointer goes as soon as its routine has been entered
+    std::function<void()> release_;
+    std::function<void(Inputs&)> chooseInputs_;
+    Inputs inputs_; ///< of the present program
+    bool isConfigurationChanged_ = false;
     bool cycleStop_ = false;
     bool safeguardOpen_ = false, emergencyStop_ = false;
     int pace_ = 100;

@@ -1,7 +1,7 @@
 #include "tools/rapidc/serve/serve_settings.h"
 
-#include "runtime/host/command_line.h"
 #include "runtime/base/text_util.h"
+#include "runtime/host/command_line.h"
 #include "runtime/net/address.h"
 #include "tools/program/pipeline.h"
 #include "tools/program/run_setup.h"
