@@ -39,7 +39,7 @@ void refuseUnless(const std::string& refusal);
 /// Whether the member is there and not null.
 bool has(const Json& params, const char* name);
 std::string textOf(const Json& params, const char* name);
-/// At most `most` bytes.
+/// The value when the member is absent.
 std::string textOr(const Json& params, const char* name, const char* otherwise);
 bool flagOf(const Json& params, const char* name);
 bool flagOr(const Json& params, const char* name, bool otherwise);
