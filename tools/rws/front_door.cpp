@@ -69,6 +69,13 @@ http::Service& FrontDoor::service(Dialect dialect) {
     return *sides_[static_cast<std::size_t>(dialect)];
 }
 
+void FrontDoor::countSockets(uint64_t session, int change) {
+    Sessions::LoggedOn* found = sessions_.numbered(session);
+    if (found == nullptr) return;
+    found->sockets += change;
+    found->used = Sessions::Clock::now();
+}
+
 // ---- Before the body -----------------------------------------------------------------------------------------------
 
 http::Decision FrontDoor::decide(Dialect dialect, const http::Head& head) {

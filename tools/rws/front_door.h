@@ -50,6 +50,8 @@ class FrontDoor {
 
     http::Service& service(Dialect dialect);
     void setSockets(SocketGate* sockets) { sockets_ = sockets; }
+    /// A session with open sockets does not expire.
+    void countSockets(uint64_t session, int change);
     /// Once a second.
     void tick() { sessions_.expire(); }
 

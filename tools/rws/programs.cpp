@@ -204,9 +204,17 @@ Reply Programs::setEntry(const Request& request) {
 
 // ---- Breakpoints -----------------------------------------------------------------------------------------------------
 
+rt::Breakpoint Programs::setInDebugger(const std::string& task, const std::string& module, uint32_t line) {
+    rt::Debugger& debugger = controller_.core().debugger();
+    debugger.watch();
+    return debugger.breakpoints().addLine(
+        module, line, [module](const rt::RoutineDesc& routine) { return rt::isPlace(routine, module); },
+        [this, task](rt::Task& at, rt::Frame*) { return stopping_ && sameName(at.name(), task); });
+}
+
 void Programs::setAgain() {
     for (Break& each : breaks_)
-        each.id = controller_.core().debugger().breakpoints().addLine(each.module, each.line).id;
+        each.id = setInDebugger(each.task, each.module, each.line).id;
 }
 
 Reply Programs::listBreaks(const Request& request) {
@@ -240,7 +248,7 @@ Reply Programs::setBreak(const Request& request) {
     if (breaks_.size() >= kMostBreakpoints)
         return Reply::refuse(ReturnCode::TooLarge, "There are too many breakpoints");
     rt::Breakpoints& breakpoints = controller_.core().debugger().breakpoints();
-    const rt::Breakpoint made = breakpoints.addLine(module, static_cast<uint32_t>(*row));
+    const rt::Breakpoint made = setInDebugger(task->name(), found->name, static_cast<uint32_t>(*row));
     if (made.actualLine != static_cast<uint32_t>(*row)) {
         breakpoints.remove(made.id);
         return badParameter("row", "a line in which an instruction begins");

@@ -129,6 +129,9 @@ class VirtualController {
     bool isBeingReplaced() const { return succession_ != nullptr; }
     /// The orders of system inputs.
     PanelOrders& panelOrders() { return *panelOrders_; }
+    /// A cold restart with the programs, the configuration and the HOME of a backup, a folder of the host. Files of HOME that the backup
+    /// does not have stay.
+    Refusal restore(const std::string& backup);
 
     // ---- Virtual time ----------------------------------------------------------------------------------------
     /// Per cent of the wall clock's pace; 0: as fast as possible.
