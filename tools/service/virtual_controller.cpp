@@ -40,6 +40,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
             problems += problem + "\n";
         return nullptr;
     }
+    compilation->keepsPredefined = true;
     auto program = std::make_unique<LoadedProgram>(std::move(compilation));
     std::string error;
     const std::string name = std::filesystem::path(inputs.paths.front()).stem().string();
