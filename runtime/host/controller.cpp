@@ -4,6 +4,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
+#include "runtime/host/panel_switches.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/run_reports.h"
 #include "runtime/host/saved_state.h"

@@ -207,6 +207,30 @@ Refusal VirtualController::restart(RestartMode mode) {
     return {};
 }
 
+Refusal VirtualController::restore(const std::string& backup) {
+    Inputs before = settings_.inputs;
+    settings_.inputs.paths = {backup};
+    settings_.inputs.tasks.clear(); // they are in the backup
+    settings_.inputs.configFiles.clear();
+    std::function<void(Inputs&)> chooseInputs;
+    chooseInputs.swap(chooseInputs_); // changes of the configuration belong to what is replaced
+    Refusal refusal = restart(RestartMode::Cold);
+    chooseInputs_.swap(chooseInputs);
+    if (!refusal.empty()) {
+        settings_.inputs = std::move(before);
+        return refusal;
+    }
+    const std::string home = folderOf("HOME");
+    std::error_code code;
+    if (!home.empty() && std::filesystem::is_directory(backup + "/HOME", code))
+        std::filesystem::copy(backup + "/HOME", home,
+                              std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing |
+                                  std::filesystem::copy_options::skip_symlinks,
+                              code);
+    if (code) fmt::print(stderr, "HOME of the backup: {}\n", code.message());
+    return {};
+}
+
 void VirtualController::setPace(int percent) {
     pace_ = percent;
     core_->scheduler().setPace(percent > 0, percent > 0 ? percent : 100);

@@ -121,6 +121,9 @@ class VirtualController {
     // ---- The controller itself -------------------------------------------------------------------------------
     /// Takes effect after the command in progress; commands posted later wait for the new controller.
     Refusal restart(RestartMode mode);
+    /// A cold restart with the programs, the configuration and the HOME of a backup, a folder of the host. Files of HOME that the backup
+    /// does not have stay.
+    Refusal restore(const std::string& backup);
 
     // ---- Virtual time ----------------------------------------------------------------------------------------
     /// Per cent of the wall clock's pace; 0: as fast as possible.
