@@ -35,8 +35,17 @@ class RapidCase(ServeCase):
                 yield client
                 client.close()
 
+    def setUp(self):
+        self._reader = None
+
+    def reader(self):
+        """One client of RWS 1.0 for the whole test: sessions are limited."""
+        if self._reader is None:
+            self._reader = self.client(1)
+        return self._reader
+
     def value(self, symbol):
-        return self.client(1).get(data(1, symbol)).values("rap-data")["value"]
+        return self.reader().get(data(1, symbol)).values("rap-data")["value"]
 
     def in_all_forms(self, path1, path2):
         """The entries of a resource, which are the same in XHTML and JSON of a dialect (contract 21)."""

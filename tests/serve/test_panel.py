@@ -111,7 +111,7 @@ class Restart(RapidCase):
         client = self.client(1)
         self.assertEqual(client.post("/rw/panel?action=restart", {"restart-mode": "wrong"}).status, 400)
         self.assertIn(client.post("/rw/panel?action=restart", {"restart-mode": "restart"}).status, (200, 202, 204))
-        self.eventually(lambda: self.client(1).get("/rw/panel/ctrlstate").status == 200, seconds=10)
+        self.eventually(lambda: self.reader().get("/rw/panel/ctrlstate").status == 200, seconds=10)
 
 
 if __name__ == "__main__":
