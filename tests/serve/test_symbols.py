@@ -82,6 +82,9 @@ class Values(RapidCase):
                 response = self.client(dialect).get(data(dialect, symbol))
                 self.assertEqual((response.status, response.code()), (400, code), symbol)
 
+    def values_of_all(self):
+        return [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit")]
+
     def test_writing(self):
         """35: what is wrong changes nothing: 400 or 403."""
         path = "T_ROB1/M/"
@@ -100,16 +103,15 @@ class Values(RapidCase):
                 with self.subTest(symbol=symbol, value=value):
                     self.assertEqual(write(symbol, value), 204)
                     self.assertEqual(self.value(quoted(path + symbol)), shown)
+            before = self.values_of_all()
             for symbol, value in (
                     ("word", '"' + "x" * 81 + '"'), ("word", "text"), ("word", '"a'), ("word", "5"), ("number", '"5"'), ("number", "TRUE"),
                     ("number", ""), ("number", "1E39"), ("number", "5 6"), ("number", "nan"), ("flag", "1"), ("flag", "maybe"),
                     ("list", "[1,2,3,4,5]"), ("list", "[1,2,3]"), ("list", "5"), ("list{5}", "1"), ("grid", "[[1,2,3],[4,5]]"),
                     ("both", "[1,2]"), ("both.first", '[1,"x",2]'), ("limit", "4"), ("main", "1"), ("signal", "1")):
                 with self.subTest(symbol=symbol, value=value):
-                    before = [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit")]
                     self.assertIn(write(symbol, value), (400, 403))
-                    after = [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit")]
-                    self.assertEqual(after, before)
+                    self.assertEqual(self.values_of_all(), before)
             self.assertEqual(client.post(data(client.dialect, path + "number") + ("?action=set" if client.dialect == 1 else ""), {}).status, 400)
 
     def test_system_data(self):
