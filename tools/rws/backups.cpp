@@ -23,7 +23,9 @@ Reply Backups::state(const Request&, const char* type) const {
                        : state_ == State::Ready      ? "Backup Ready"
                                                      : "Backup Error";
     Document document;
-    document.add(type, "backup").value("backup-state", text).value("progress-state", state_ == State::InProgress ? "active" : "idle");
+    document.add(type, "backup")
+        .value("backup-state", text)
+        .value("progress-state", state_ == State::InProgress ? "active" : "idle");
     return Reply::of(std::move(document));
 }
 
@@ -31,11 +33,15 @@ std::optional<Reply> Backups::folderIn(const Request& request, bool exists, std:
     std::string path = pathInVolume(fieldOf(request, "backup"));
     while (path.ends_with('/'))
         path.pop_back();
-    if (path.empty() || path.find('/') == std::string::npos) return badParameter("backup", "/fileservice/$BACKUP/name");
-    if (const service::FileResult found = volumes_.hostPath(path, host); !found.isDone()) return refuseFile(found);
+    if (path.empty() || path.find('/') == std::string::npos)
+        return badParameter("backup", "/fileservice/$BACKUP/name");
+    if (const service::FileResult found = volumes_.hostPath(path, host); !found.isDone())
+        return refuseFile(found);
     std::error_code code;
-    if (exists && !rapid::project::isBackup(host)) return Reply::refuse(ReturnCode::NoPath, fmt::format("{} is no backup", path));
-    if (!exists && fs::exists(fs::symlink_status(host, code))) return Reply::refuse(ReturnCode::Rejected, fmt::format("{} exists already", path), 409);
+    if (exists && !rapid::project::isBackup(host))
+        return Reply::refuse(ReturnCode::NoPath, fmt::format("{} is no backup", path));
+    if (!exists && fs::exists(fs::symlink_status(host, code)))
+        return Reply::refuse(ReturnCode::Rejected, fmt::format("{} exists already", path), 409);
     if (!exists && !fs::is_directory(fs::path(host).parent_path(), code))
         return Reply::refuse(ReturnCode::NoPath, fmt::format("the folder of {} does not exist", path));
     return std::nullopt;
@@ -50,8 +56,10 @@ Reply Backups::create(const Request& request) {
     state_ = State::InProgress;
     Reply reply = Reply::done(202);
     reply.location = progress_.begin("backup");
-    auto content = std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
-    writer_ = std::thread([this, alive = std::weak_ptr(alive_), &controller = controller_, content, host, path = reply.location] {
+    auto content =
+        std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
+    writer_ = std::thread([this, alive = std::weak_ptr(alive_), &controller = controller_, content, host,
+                           path = reply.location] {
         const std::string problem = service::writeBackup(*content, host);
         controller.post([this, alive, problem, path] {
             if (alive.expired()) return;
@@ -78,9 +86,11 @@ Reply Backups::restore(const Request& request) {
 
 void Backups::addTo(Router& router, Subscribables&) {
     const std::string all = "/ctrl/backup";
-    router.addBoth({Method::Get, all, "backupstate", [this](const Request& r) { return state(r, "ctrl-backup-state"); }});
+    router.addBoth({Method::Get, all, "backupstate",
+                    [this](const Request& r) { return state(r, "ctrl-backup-state"); }});
     router.getBoth(all, [this](const Request& r) { return state(r, "ctrl-backup-info"); });
-    router.get(Dialect::V2, all + "/state", [this](const Request& r) { return state(r, "ctrl-backup-state"); });
+    router.get(Dialect::V2, all + "/state",
+               [this](const Request& r) { return state(r, "ctrl-backup-state"); });
     addOrder(router, all, "backup", "create", [this](const Request& r) { return create(r); });
     addOrder(router, all, "restore", "restore", [this](const Request& r) { return restore(r); });
     addOrder(router, all, "check-restore", "check-restore", [this](const Request& r) { return check(r); });

@@ -5,8 +5,10 @@
 
 #include "runtime/host/panel_switches.h"
 #include "runtime/host/stop_signals.h"
+#include "tools/program/run_setup.h"
 
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
@@ -60,10 +62,29 @@ rt::ExitStatus VirtualController::open() {
         return status;
     }
     printDiagnostics(program_->compilation());
+    if (const std::string problem = openHome(); !problem.empty()) {
+        fmt::print(stderr, "{}\n", problem);
+        return rt::ExitStatus::BadUsage;
+    }
     panel_.motors = settings_.programStart ? MotorState::On : MotorState::Off;
     Succession first;
     first.programStart = first.motorsOn = settings_.programStart;
     return makeCore(first);
+}
+
+/// Without --home: an empty folder, or a copy of the HOME of a backup, so that the backup stays as it is.
+std::string VirtualController::openHome() {
+    if (!settings_.options.home.empty()) return {};
+    const std::string& from = program_->compilation().homeFolder;
+    std::string error;
+    if (!from.empty()) {
+        settings_.options.home = copyHome(from, home_, error);
+        return error;
+    }
+    if (const int problem = home_.make("home"); problem != 0)
+        return fmt::format("cannot make a folder for HOME: {}", std::strerror(problem));
+    settings_.options.home = home_.path();
+    return {};
 }
 
 rt::ExitStatus VirtualController::makeCore(const Succession& how) {
