@@ -16,8 +16,8 @@ namespace rapidc::rws {
 class Backups {
   public:
     /// All of them must outlive the routes.
-    Backups(service::VirtualController& controller, const service::ConfigurationStore& configuration, const service::FileVolumes& volumes,
-            Progress& progress)
+    Backups(service::VirtualController& controller, const service::ConfigurationStore& configuration,
+            const service::FileVolumes& volumes, Progress& progress)
         : controller_(controller), configuration_(configuration), volumes_(volumes), progress_(progress) {}
     /// Waits for a backup that is being written.
     ~Backups();
