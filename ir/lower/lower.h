@@ -25,7 +25,7 @@ struct Options {
     bool stepping = false;
     /// Every routine can be called by name, for the expressions of a debugger.
     bool callsByName = false;
-    /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.
+    /// Procedures that the configuration connects with system events or a signal: reachable by name at run time. Lower case.
     std::set<std::string> eventRoutines;
     /// Is this routine called from outside the program (a test)? Then it is found by name. Empty: none is.
     std::function<bool(const sema::RoutineSymbol&)> calledFromOutside;
