@@ -14,6 +14,19 @@ namespace {
 
 constexpr int kVersion = 1; // of the protocol
 
+/// Whether `action` succeeds; else the client gets the error.
+template <class Action> bool answering(Client& client, const Json& id, const Action& action) {
+    try {
+        action();
+        return true;
+    } catch (const RequestError& error) {
+        client.refuse(id, error);
+    } catch (const std::exception& error) { // a mistake of this program must not end the controller
+        client.refuse(id, {code::kFailed, fmt::format("The request failed: {}", error.what())});
+    }
+    return false;
+}
+
 } // namespace
 
 Hub::Hub(service::VirtualController& controller, service::EventJournal& journal, service::ManualMotion& manual)
@@ -48,30 +61,39 @@ void Hub::remove(const std::shared_ptr<Client>& client) {
         area->forget(*client);
 }
 
-void Hub::handle(const std::shared_ptr<Client>& client, const Json& request) {
-    const Json& id = request.at("id");
-    try {
-        const auto method = request.find("method");
-        if (method == request.end() || !method->is_string()) badRequest("method is missing");
-        const auto params = request.find("params");
-        const bool hasParams = params != request.end() && !params->is_null();
-        if (hasParams && !params->is_object()) badRequest("params must be an object");
-        client->answer(id, call(*client, method->get<std::string>(), hasParams ? *params : Json::object()));
-    } catch (const RequestError& error) {
-        client->refuse(id, error);
-    } catch (const std::exception& error) { // a mistake of this program must not end the controller
-        client->refuse(id, {code::kFailed, fmt::format("The request failed: {}", error.what())});
-    }
+void Hub::handle(const std::shared_ptr<Client>& client, const std::shared_ptr<const Json>& request) {
+    const Json& id = request->at("id");
+    const MethodTable::Entry* entry = nullptr;
+    const bool isKnown = answering(*client, id, [&] {
+        const auto method = request->find("method");
+        if (method == request->end() || !method->is_string()) badRequest("method is missing");
+        const auto params = request->find("params");
+        if (params != request->end() && !params->is_null() && !params->is_object()) badRequest("params must be an object");
+        entry = &methodFor(*client, method->get<std::string>());
+    });
+    if (!isKnown) return client->endRequest();
+    const auto execute = [client, request, entry] {
+        answering(*client, request->at("id"), [&] {
+            const auto params = request->find("params");
+            const bool hasParams = params != request->end() && params->is_object();
+            Json result = entry->method(*client, hasParams ? *params : Json::object());
+            client->answer(request->at("id"), result.is_null() ? Json::object() : result);
+        });
+        client->endRequest();
+    };
+    if (!entry->isOnDisk) return execute();
+    if (workers_.post(execute)) return;
+    client->refuse(id, {code::kBusy, "Too much waits for the disk", "Send it later"});
+    client->endRequest();
 }
 
-Json Hub::call(Client& client, const std::string& method, const Json& params) {
-    const Method* found = methods_.find(method);
+const MethodTable::Entry& Hub::methodFor(const Client& client, const std::string& name) const {
+    const MethodTable::Entry* found = methods_.find(name);
     if (found == nullptr)
-        throw RequestError{code::kUnknownMethod, fmt::format("There is no method {}", method.substr(0, 100))};
-    if (!client.isGreeted() && method != "hello")
+        throw RequestError{code::kUnknownMethod, fmt::format("There is no method {}", name.substr(0, 100))};
+    if (!client.isGreeted() && name != "hello")
         throw RequestError{code::kLogin, "The connection has not said hello", "Call hello first"};
-    Json result = (*found)(client, params);
-    return result.is_null() ? Json::object() : result;
+    return *found;
 }
 
 Json Hub::hello(Client& client, const Json& params) {

@@ -72,10 +72,7 @@ class PendantService::Socket final : public http::SocketListener {
         if (!client_->beginRequest())
             return client_->refuse(*id, {code::kBusy, "Too many requests wait for an answer", "Send it later"});
         auto shared = std::make_shared<const Json>(std::move(request));
-        service_.controller_.post([&hub = service_.hub_, client = client_, shared] {
-            hub.handle(client, *shared);
-            client->endRequest();
-        });
+        service_.controller_.post([&hub = service_.hub_, client = client_, shared] { hub.handle(client, shared); });
     }
 
     void closed() override {
