@@ -64,7 +64,7 @@ class SignalArea final : public Area {
     void note(rt::SignalId signal, double value);
     void beginGeneration();
     void resolve(Feed& feed) const;
-    Json describe(rt::SignalId signal) const;
+    Json entryFor(rt::SignalId signal) const;
     Json list(const Json& params) const;
     Json set(const Json& params);
     Json simulate(const Json& params);
@@ -146,7 +146,7 @@ bool SignalArea::mayWrite(const rt::SignalConfig& config) const {
     return true;
 }
 
-Json SignalArea::describe(rt::SignalId signal) const {
+Json SignalArea::entryFor(rt::SignalId signal) const {
     const rt::SignalConfig& config = io().config(signal);
     return {{"name", config.name},
             {"type", rt::signalTypeName(config.type)},
@@ -173,7 +173,7 @@ Json SignalArea::list(const Json& params) const {
         if (!matchesFilter(config.name, filter) && !matchesFilter(config.label, filter)) continue;
         if (!type.empty() && !sameName(rt::signalTypeName(config.type), type)) continue;
         if (!device.empty() && !sameName(config.device, device)) continue;
-        if (total++ >= start && signals.size() < count) signals.push_back(describe(signal));
+        if (total++ >= start && signals.size() < count) signals.push_back(entryFor(signal));
     }
     return {{"signals", std::move(signals)}, {"total", total}};
 }
@@ -217,9 +217,9 @@ Json SignalArea::subscribe(const Client& client, const Json& params) {
     if (!feed.all) feed.names = textsOf(params, "names", kMostNames);
     Json signals = Json::array();
     for (const std::string& name : feed.names)
-        signals.push_back(describe(find(name)));
+        signals.push_back(entryFor(find(name)));
     for (std::size_t i = 0; feed.all && i < io().size(); ++i)
-        signals.push_back(describe(static_cast<rt::SignalId>(i)));
+        signals.push_back(entryFor(static_cast<rt::SignalId>(i)));
     resolve(feed);
     if (!feed.all && feed.names.empty())
         feeds_.erase(&client);
