@@ -181,13 +181,16 @@ Json DataArea::watch(const Client& client, const Json& params) {
 }
 
 void DataArea::unwatch(const Client& client) {
-    std::erase_if(watched_, [&](auto& each) {
-        Watched& watched = each.second;
+    for (auto each = watched_.begin(); each != watched_.end();) {
+        Watched& watched = each->second;
         watched.clients.erase(&client);
-        if (!watched.clients.empty()) return false;
-        watches_.remove(watched.token);
-        return true;
-    });
+        const auto next = std::next(each);
+        if (watched.clients.empty()) {
+            watches_.remove(watched.token);
+            watched_.erase(each);
+        }
+        each = next;
+    }
 }
 
 void DataArea::flush() {

@@ -1,6 +1,7 @@
 #include "tools/pendant/planned_path.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace rapidc::pendant {
 
@@ -32,12 +33,12 @@ std::vector<Vec3> circle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 normal = cross(u, v);
     const double square = dot(normal, normal);
     if (!(square > kStraight * dot(u, u) * dot(v, v))) return {a, b, c};
-    const Vec3 toCentre = (cross(v, normal) * -1.0 * dot(u, u) + cross(normal, u) * -1.0 * dot(v, v)) * (-0.5 / square);
+    const Vec3 toCentre = (cross(v, normal) * dot(u, u) + cross(normal, u) * dot(v, v)) * (0.5 / square);
     const Vec3 centre = a + toCentre;
     const Vec3 x = a - centre;
     const Vec3 y = cross(normal * (1 / std::sqrt(square)), x);
     double end = std::atan2(dot(c - centre, y), dot(c - centre, x));
-    if (end < 0) end += 2 * M_PI;
+    if (end < 0) end += 2 * std::numbers::pi;
     std::vector<Vec3> points;
     for (int i = 0; i <= kCirclePieces; ++i) {
         const double angle = end * i / kCirclePieces;
