@@ -85,6 +85,20 @@ std::string ConfigurationStore::domainNamed(std::string_view name) {
 
 ConfigurationStore::ConfigurationStore(VirtualController& controller, std::string folder)
     : controller_(controller), folder_(std::move(folder)) {
+    read();
+    controller_.onInputs([this](Inputs& inputs) { choose(inputs); });
+    Observer observer;
+    observer.changed = [this](Change change, const rt::Task*) {
+        if (change == Change::Generation && controller_.settings().inputs.paths != paths_) read();
+    };
+    token_ = controller_.observers().add(std::move(observer));
+}
+
+void ConfigurationStore::read() {
+    paths_ = controller_.settings().inputs.paths;
+    files_.clear();
+    changed_.clear();
+    originals_.clear();
     const rt::ProgramDesc& program = controller_.program().description();
     for (uint32_t i = 0; i < program.configCount; ++i)
         originals_.emplace_back(program.configNames[i], program.configTexts[i]);
@@ -101,10 +115,10 @@ ConfigurationStore::ConfigurationStore(VirtualController& controller, std::strin
                 same->instances.insert(same->instances.end(), section.instances.begin(), section.instances.end());
         }
     }
-    controller_.onInputs([this](Inputs& inputs) { choose(inputs); });
 }
 
 ConfigurationStore::~ConfigurationStore() {
+    controller_.observers().remove(token_);
     controller_.onInputs({});
 }
 

@@ -73,9 +73,13 @@ class ConfigurationStore {
     Refusal judge(const rapid::config::CfgFile& file, std::string_view type, const rapid::config::CfgInstance* instance) const;
     Refusal replace(const std::string& domain, rapid::config::CfgFile file);
     void choose(Inputs& inputs);
+    /// Everything as the present program has it.
+    void read();
 
     VirtualController& controller_;
     std::string folder_;
+    Observers::Token token_;
+    std::vector<std::string> paths_; ///< of the inputs: after a restored backup others
     std::map<std::string, rapid::config::CfgFile> files_; ///< by domain
     std::set<std::string> changed_;                       ///< domains
     std::vector<std::pair<std::string, std::string>> originals_; ///< path and bytes of the files at the start

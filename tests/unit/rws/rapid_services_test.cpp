@@ -626,3 +626,25 @@ TEST_CASE("The stops of the panel and the lock of the mode (controller.md 2.3)",
     CHECK(served.post(kNew, "/rw/panel/opmode", {{"opmode", "manf"}}).status == 204);
     CHECK(served.read(kNew, "/rw/panel/opmode", "opmode") == "MANF");
 }
+
+TEST_CASE("Predefined data are found, whether the program uses them or not (controller.md 2.3, 6.3)",
+          "[rws]") {
+    ServedController served(
+        {{"Main1.mod", "MODULE Main1\n   PROC main()\n      Stop;\n   ENDPROC\nENDMODULE\n"}});
+    REQUIRE(served.opened());
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/user/reg1"), "value") == "0");
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/user/reg1") + "?action=set", {{"value", "3"}}).status ==
+          204);
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/reg1"), "value") == "3");
+    CHECK(served.read(kNew, dataPath(kNew, "T_ROB1/BASE/tool0"), "value") ==
+          "[TRUE,[[0,0,0],[1,0,0,0]],[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]");
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/tool0/robhold") + "?action=set", {{"value", "FALSE"}})
+              .status == 400);
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/tool0.robhold") + "?action=set", {{"value", "FALSE"}})
+              .status == 403);
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/BASE/tool0"), "typurl", "rap-symproppers") ==
+          "RAPID/tooldata");
+    CHECK(served.read(kNew, propertiesPath(kNew, "tooldata/tframe"), "typurl", "rap-sympropreccomp") ==
+          "RAPID/pose");
+    CHECK(served.get(kOld, dataPath(kOld, "T_ROB1/clock1")).status == 400); // a clock has no value
+}

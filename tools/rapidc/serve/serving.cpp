@@ -1,6 +1,7 @@
 #include "tools/rapidc/serve/serving.h"
 
 #include "tools/http/tls.h"
+#include "tools/rws/roots.h"
 
 #include <chrono>
 #include <cstdio>
@@ -12,6 +13,7 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
     : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
       subscriptions_(subscribables_,
                      [this](std::function<void()> work) { controller_.post(std::move(work)); }) {
+    rws::addRoots(router_);
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
     subscriptions_.addTo(router_);
