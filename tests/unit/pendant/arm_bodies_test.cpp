@@ -25,7 +25,7 @@ TEST_CASE("pendant: the bodies of every robot end where its kinematics have the 
     std::mt19937 random(7);
     for (const std::string& name : robot::robotModelNames()) {
         const auto model = robot::loadRobotModel(name);
-        REQUIRE(model.has_value());
+        REQUIRE(model.hasValue());
         const robot::Kinematics kinematics(*model);
         const std::vector<Body> bodies = bodiesOf(*model);
         const auto flange = std::find_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.name == "flange"; });
@@ -44,7 +44,7 @@ TEST_CASE("pendant: the bodies of every robot end where its kinematics have the 
 TEST_CASE("pendant: bodies refer to earlier bodies and existing joints, and something can be seen of each robot", "[pendant]") {
     for (const std::string& name : robot::robotModelNames()) {
         const auto model = robot::loadRobotModel(name);
-        REQUIRE(model.has_value());
+        REQUIRE(model.hasValue());
         const auto count = static_cast<int>(robot::Kinematics(*model).jointCount());
         const std::vector<Body> bodies = bodiesOf(*model);
         std::size_t solids = 0;
@@ -68,7 +68,7 @@ TEST_CASE("pendant: the rods of a delta robot have their length", "[pendant]") {
     int deltas = 0;
     for (const std::string& name : robot::robotModelNames()) {
         const auto model = robot::loadRobotModel(name);
-        REQUIRE(model.has_value());
+        REQUIRE(model.hasValue());
         if (model->kinematics != robot::KinematicsKind::Delta) continue;
         ++deltas;
         const std::vector<Body> bodies = bodiesOf(*model);
