@@ -44,6 +44,7 @@ LAYERS = {
     # the controller, from what all of it shares up to the whole
     "runtime/base": ["config"],
     "runtime/value": ["runtime/abi"],
+    "runtime/interpreter": ["runtime/abi"],
     "runtime/program": ["runtime/abi", "runtime/base"],
     "runtime/log": ["runtime/base", "config"],
     "runtime/sched": ["runtime/abi", "runtime/base", "runtime/log"],
@@ -72,7 +73,7 @@ LAYERS = {
     # Robot Web Services: resources, sessions, subscriptions
     "tools/rws": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program", "tools/service", "tools/http"],
     # the web page of the controller
-    "tools/pendant": ["config", "frontend/", "runtime/", "stdlib", "tools/program", "tools/service", "tools/http"],
+    "tools/pendant": ["config", "frontend/", "runtime/", "stdlib", "stdlib/", "tools/program", "tools/service", "tools/http", "tools/rws"],
     "tools": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools/lsp", "tools/protocol",
               "tools/program", "tools/service", "tools/http", "tools/rws", "tools/pendant"],
     "tests": ["config", "frontend/", "ir/", "codegen", "runtime/", "stdlib", "stdlib/", "tools", "tools/"],
@@ -102,7 +103,7 @@ RESTRICTED = [
       "stdlib/impl/motion/kept_world_zones.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
       "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",
-      "tools/rapidc/dap/messages.h", "tools/rws/render_json.cpp", "tools/testing/json_report.cpp", "tests"],
+      "tools/pendant", "tools/rapidc/dap/messages.h", "tools/rws/render_json.cpp", "tools/testing/json_report.cpp", "tests"],
      "JSON costs a file seconds: add it to this list only when the file reads or writes JSON itself"),
     (re.compile(r"^(egm\.pb\.h|google/protobuf/.*)$"), ["stdlib/impl/guided_motion/egm_messages.cpp"],
      "messages of EGM are made and read through stdlib/impl/guided_motion/egm_messages.h"),

@@ -164,7 +164,7 @@ void checkRobot(Compilation& compilation, const Environment& environment, const 
     if (robot.empty()) return;
     if (!environment.robotProblem(robot).empty())
         compilation.sink.report(say::RobotUnknown, nullptr, {},
-                                {robot, "name one of the known models with --robot to run the program"});
+                                {robot, "a model like it takes its place when there is one; --robot names another one"});
 }
 
 std::set<std::string> namedByConfiguration(const Compilation& compilation) {

@@ -78,6 +78,9 @@ class Debugger final : public StepHook {
     void quit() { quit_ = true; }
 
     Breakpoints& breakpoints() { return breakpoints_; }
+    /// From now on tasks ask before every statement, so that breakpoints stop them; until then, a program pays nothing for an unused
+    /// debugger. Orders and a client do it themselves.
+    void watch();
     /// A module has come into memory or left it.
     void memoryChanged() { breakpoints_.memoryChanged(); }
 
@@ -181,8 +184,6 @@ class Debugger final : public StepHook {
     std::string refusal(const Task& task) const;
     /// The state that belongs to the call chain that was left.
     void forget(const Task& task);
-    /// From now on tasks ask before every statement; until then, a program pays nothing for an unused debugger.
-    void watch();
     // debugger_backward.cpp
     /// Moves the program pointer, or begins to execute its statement backwards (then backwardFrame is set).
     std::string startBackward(Task& task, State& state, Frame* at);

@@ -4,6 +4,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/module_saver.h"
+#include "runtime/host/panel_switches.h"
 #include "runtime/host/run_files.h"
 #include "runtime/host/run_reports.h"
 #include "runtime/host/saved_state.h"
@@ -136,7 +137,7 @@ void Controller::beginTasks() {
 bool Controller::runOver() {
     if (StopSignals::received() != 0) return true;
     if (debugger_.poll()) return true;
-    systemSignals_.update();
+    systemSignals_.outputs.update();
     state_->keepFresh();
     panel_.keepVisible();
     for (const auto& action : lookActions_)
@@ -244,7 +245,9 @@ void Controller::shutDown() {
 
 bool Controller::cyclesLeft(const Task& task) const {
     if (resident_ && task.kind() == TaskKind::Normal) return !runOnce_;
-    if (task.kind() != TaskKind::Normal || options_.cycles == 0) return true;
+    if (task.kind() != TaskKind::Normal) return true;
+    if (runOnce_) return false;
+    if (options_.cycles == 0) return true;
     return task.cyclesDone() < static_cast<uint64_t>(options_.cycles);
 }
 
@@ -360,6 +363,7 @@ void Controller::actionStart() {
         return;
     }
     backgroundStopped_ = false;
+    service<PanelSwitches>().emergencyStop = false;
     if (!std::exchange(motorsOn_, true)) log_.write(EventId::MotorsOn, nullptr);
     for (const auto& task : tasks_) {
         if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished ||
@@ -442,7 +446,7 @@ bool Controller::isStart(const StimulusItem& item) const {
     if (item.kind != StimulusKind::Signal)
         return item.kind == StimulusKind::Start || item.kind == StimulusKind::PowerOn ||
                item.kind == StimulusKind::StepForward || item.kind == StimulusKind::StepBackward;
-    return item.value != 0 && systemSignals_.isStart(io_.find(item.target));
+    return item.value != 0 && systemSignals_.inputs.isStart(io_.find(item.target));
 }
 
 void Controller::perform(const StimulusItem& item) {

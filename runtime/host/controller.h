@@ -82,6 +82,8 @@ class Controller final : public DebugHost {
     std::mt19937& random() { return random_; }
     /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.
     int64_t calendarSeconds() const;
+    /// An operator sets the clock.
+    void setCalendarSeconds(int64_t seconds) { startCalendar_ += seconds - calendarSeconds(); }
 
     /// Data that a part of the standard library keeps per controller; made on first use, destroyed with the
     /// controller.

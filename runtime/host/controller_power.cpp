@@ -1,6 +1,7 @@
 // Controller: motors off, power failure and the return of power (manual 1.2.2, 1.20, 2.2.6, 2.10).
 
 #include "runtime/host/controller.h"
+#include "runtime/host/panel_switches.h"
 #include "runtime/host/saved_state.h"
 
 namespace rt {
@@ -8,6 +9,7 @@ namespace rt {
 void Controller::actionEmergencyStop() {
     log_.write(EventId::EmergencyStop, nullptr);
     motorsOn_ = false;
+    service<PanelSwitches>().emergencyStop = true;
     stopTasks("emergency stop", SystemEvent::QuickStop);
     for (const auto& motion : motions_)
         motion->emergencyStop(false);

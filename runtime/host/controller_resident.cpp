@@ -1,6 +1,7 @@
 // Controller: what only a controller needs that serves clients for as long as they like.
 
 #include "runtime/host/controller.h"
+#include "runtime/host/panel_switches.h"
 #include "runtime/host/saved_state.h"
 
 #include <utility>
@@ -32,6 +33,7 @@ bool Controller::isTaskActive(const Task& task) const {
 }
 
 void Controller::actionMotors(bool on) {
+    if (on) service<PanelSwitches>().emergencyStop = false;
     if (std::exchange(motorsOn_, on) == on) return;
     log_.write(on ? EventId::MotorsOn : EventId::MotorsOff, nullptr);
     if (on) return;

@@ -154,12 +154,13 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
     for (const RobotPlan& plan : plans) {
         auto unit = std::make_unique<MechanicalUnit>();
         unit->name = plan.name;
-        const auto model = robot::loadRobotModel(plan.model);
+        auto model = robot::loadRobotModel(plan.model);
         if (!plan.isAsked && plan.instance != nullptr &&
             isPositioner(configuration, *plan.instance, !model)) {
             positioners.push_back(&plan);
             continue;
         }
+        if (!model && !plan.isAsked) takeSimilar(plan, model);
         if (!model && (groups_.empty() || plan.isAsked)) {
             isUsage = plan.isAsked;
             return model.error().message;
@@ -187,6 +188,18 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
     for (const RobotPlan* plan : positioners)
         addPositioner(configuration, *plan->instance);
     return {};
+}
+
+/// A robot of the configuration that is not in the catalogue: one like it moves instead.
+void MechanicalUnits::takeSimilar(const RobotPlan& plan,
+                                  robot::Expected<robot::RobotModel, robot::ModelError>& model) {
+    const std::string similar = robot::similarRobotModel(plan.model);
+    if (similar.empty()) return;
+    model = robot::loadRobotModel(similar);
+    warnings_.push_back(
+        fmt::format("the robot {} ({}) of MOC.cfg is not in the catalogue: {} takes its place; "
+                    "--robot names another one",
+                    plan.name, plan.model, similar));
 }
 
 /// An instance of ROBOT without TCP: the axes of a positioner.

@@ -84,6 +84,7 @@ class MechanicalUnits {
     std::vector<RobotPlan> planRobots(const CfgLookup& configuration, const std::vector<std::string>& robots,
                                       std::string_view defaultModel, std::size_t needed) const;
     static RobotPlan& firstRobot(const CfgLookup& configuration, std::vector<RobotPlan>& plans);
+    void takeSimilar(const RobotPlan& plan, robot::Expected<robot::RobotModel, robot::ModelError>& model);
     std::string addRobots(const CfgLookup& configuration, const std::vector<RobotPlan>& plans, bool& isUsage);
     void addPositioner(const CfgLookup& configuration, const CfgInstance& instance);
     void addExternalUnits(const CfgLookup& configuration);

@@ -13,6 +13,9 @@ enum class OperatingMode : uint8_t {
 
 struct PanelSwitches {
     OperatingMode mode = OperatingMode::Auto;
+    bool emergencyStop = false;  ///< from the button until the motors are on again, or its reset is confirmed
+    bool simulationMode = false; ///< system input SimMode
+    bool errorReset = false;     ///< system input ResetError since the last error
 };
 
 } // namespace rt

@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace robot {
@@ -244,6 +247,50 @@ Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
     }
     return Unexpected{ModelError{fmt::format("no robot model is called '{}'; near names are {}{}", nameOrPath,
                                              nearNames(models, nameOrPath), problems)}};
+}
+
+namespace {
+
+/// The figures of a name (payload, reach), the smallest first.
+std::vector<double> figuresOf(const NameParts& parts) {
+    std::vector<double> figures;
+    for (const std::string& detail : parts.details) {
+        double figure = 0;
+        const auto read = std::from_chars(detail.data(), detail.data() + detail.size(), figure);
+        if (read.ec == std::errc{} && read.ptr == detail.data() + detail.size() && figure > 0)
+            figures.push_back(figure);
+    }
+    std::sort(figures.begin(), figures.end());
+    return figures;
+}
+
+/// How different two robots are: a step of the family counts as twice the payload or the reach.
+double difference(const NameParts& wanted, const NameParts& model) {
+    const std::vector<double> a = figuresOf(wanted), b = figuresOf(model);
+    double sum = std::numbers::ln2 * static_cast<double>(editDistance(wanted.family, model.family));
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        sum += std::fabs(std::log(a[i] / b[i]));
+    return sum;
+}
+
+} // namespace
+
+std::string similarRobotModel(std::string_view name) {
+    constexpr std::size_t kMostChanges = 2, kLongest = 100; // of the family; characters
+    const NameParts wanted = takeApart(name.substr(0, kLongest));
+    std::string best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::string& candidate : robotModelNames()) {
+        const NameParts model = takeApart(candidate);
+        if (model.family.size() != wanted.family.size() || model.family.front() != wanted.family.front() ||
+            editDistance(wanted.family, model.family) > kMostChanges)
+            continue;
+        const double now = difference(wanted, model);
+        if (now >= least) continue;
+        least = now;
+        best = candidate;
+    }
+    return best;
 }
 
 std::vector<std::string> robotModelNames() {

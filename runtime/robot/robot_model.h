@@ -110,6 +110,10 @@ struct ModelError {
 Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
                                                 std::span<const std::string> searchDirs = {});
 
+/// The embedded model that comes nearest to a robot of a name that no model has: of the same family or one beside it, and of a
+/// similar reach and payload. "" when none is near.
+std::string similarRobotModel(std::string_view name);
+
 /// Reads one model from the text of a data file; `origin` names it in errors.
 Expected<RobotModel, ModelError> parseRobotModel(std::string_view jsonText, std::string_view origin);
 

@@ -52,6 +52,10 @@ class Socket final : public Channel, public std::enable_shared_from_this<Socket>
         if (std::exchange(isScheduled_, true)) return;
         asio::post(hub_->io, [self = shared_from_this()] { self->writeNext(); });
     }
+    std::size_t waitingBytes() {
+        const std::lock_guard lock(mutex_);
+        return waitingBytes_;
+    }
     void post(CloseCode code, std::string reason) {
         asio::post(hub_->io, [self = shared_from_this(), code, reason = std::move(reason)] {
             self->close(code, reason);
@@ -148,6 +152,10 @@ class Handle final : public WebSocket {
     }
     void close(CloseCode code, std::string reason) override {
         if (const auto socket = socket_.lock()) socket->post(code, std::move(reason));
+    }
+    std::size_t waitingBytes() const override {
+        const auto socket = socket_.lock();
+        return socket ? socket->waitingBytes() : 0;
     }
 
   private:

@@ -19,9 +19,9 @@ std::optional<Failure> Access::refusal(const Request& request, Domain domain) co
     if (isOthers) return Failure{ReturnCode::HeldByOther, "Another client holds the mastership"};
     const bool isImplicit = rapid::config::sameName(request.query.text("mastership"), "implicit");
     if (request.dialect == Dialect::V1 || isImplicit) return std::nullopt;
-    return Failure{ReturnCode::NoMastership,
-                   domain == Domain::Motion ? "Request the mastership of motion first"
-                                            : "Request the mastership of edit first"};
+    return Failure{ReturnCode::NoMastership, domain == Domain::Motion
+                                                 ? "Request the mastership of motion first"
+                                                 : "Request the mastership of edit first"};
 }
 
 Handler Access::guarded(Domain domain, Handler handler) const {

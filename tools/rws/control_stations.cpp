@@ -54,7 +54,8 @@ void ControlStations::addTo(Router& router) {
         router.post(Dialect::V2, std::string("/rw/controlstation") + pattern, only8(std::move(handler)));
     };
     get("", [](const Request&) {
-        return folder({{"controlstation-register-li", "register"}, {"controlstation-writeaccess-li", "writeaccess"}});
+        return folder(
+            {{"controlstation-register-li", "register"}, {"controlstation-writeaccess-li", "writeaccess"}});
     });
     post("/register/remote", [this](const Request& request) { return registerRemote(request); });
     post("/register/local", [](const Request&) {
@@ -115,8 +116,9 @@ Reply ControlStations::registerRemote(const Request& request) {
 
 std::optional<Failure> ControlStations::refusal(uint64_t session, bool hasAccess, bool isHeld) const {
     if (find(session) == nullptr)
-        return Failure{ReturnCode::StationUnknown,
-                       "The session is not part of a control station: POST /rw/controlstation/register/remote"};
+        return Failure{
+            ReturnCode::StationUnknown,
+            "The session is not part of a control station: POST /rw/controlstation/register/remote"};
     if (hasAccess) return std::nullopt;
     if (isHeld) return Failure{ReturnCode::WriteAccessHeld, "Another client has write access"};
     return Failure{ReturnCode::NoWriteAccess,

@@ -39,7 +39,9 @@ void describe(const EventMessage& message, Entry& entry) {
         argument.value("type", typeOf(message.arguments[i])).value("value", message.arguments[i]);
         entry.nested.push_back(std::move(argument));
     }
-    entry.value("title", message.title).value("desc", message.description).value("conseqs", message.consequences);
+    entry.value("title", message.title)
+        .value("desc", message.description)
+        .value("conseqs", message.consequences);
     entry.value("causes", message.causes).value("actions", message.actions);
 }
 
@@ -54,7 +56,8 @@ std::optional<int> domainIn(const Request& request) {
 }
 
 Reply noDomain(const Request& request) {
-    return Reply::refuse(ReturnCode::NotFound, fmt::format("the event log has no domain {}", request.parameter("domain")));
+    return Reply::refuse(ReturnCode::NotFound,
+                         fmt::format("the event log has no domain {}", request.parameter("domain")));
 }
 
 class LogWatch final : public Watch {
@@ -112,7 +115,8 @@ Reply EventLogPages::list(const Request& request) const {
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i) {
         const EventMessage& message = *all[newestFirst ? all.size() - 1 - i : skipped + i];
-        Entry& entry = document.add("elog-message-li", fmt::format("/rw/elog/{}/{}", *domain, message.number));
+        Entry& entry =
+            document.add("elog-message-li", fmt::format("/rw/elog/{}/{}", *domain, message.number));
         entry.self = entry.title;
         describe(message, entry);
     }
@@ -126,8 +130,8 @@ Reply EventLogPages::one(const Request& request) const {
     const auto number = countIn(request.parameter("number"));
     const auto message = number ? journal_.find(*domain, *number) : nullptr;
     if (!message)
-        return Reply::refuse(ReturnCode::NotFound,
-                             fmt::format("there is no message {} in domain {}", request.parameter("number"), *domain));
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no message {} in domain {}",
+                                                               request.parameter("number"), *domain));
     Document document;
     document.place = Document::Place::Resources;
     Entry& entry = document.add("elog-message", fmt::format("/rw/elog/{}/{}", *domain, message->number));
@@ -163,8 +167,9 @@ void EventLogPages::addTo(Router& router, Subscribables& subscribables) {
     messages.open = [this](const Request& request, const Changed& changed, Subscription& out) {
         const auto number = domainIn(request);
         if (!number)
-            return std::optional(Failure{ReturnCode::NotFound,
-                                         fmt::format("the event log has no domain {}", request.parameter("domain")), 0});
+            return std::optional(
+                Failure{ReturnCode::NotFound,
+                        fmt::format("the event log has no domain {}", request.parameter("domain")), 0});
         out.watch = std::make_unique<LogWatch>(journal_, *number, changed);
         return std::optional<Failure>();
     };

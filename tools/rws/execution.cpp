@@ -21,8 +21,9 @@ template <class Value> struct Word {
     Value value;
 };
 constexpr Word<ExecutionMode> kModes[] = {
-    {"continue", ExecutionMode::Continue}, {"stepin", ExecutionMode::StepIn},   {"stepover", ExecutionMode::StepOver},
-    {"stepout", ExecutionMode::StepOut},   {"stepback", ExecutionMode::StepBack}, {"steplast", ExecutionMode::StepLast},
+    {"continue", ExecutionMode::Continue},    {"stepin", ExecutionMode::StepIn},
+    {"stepover", ExecutionMode::StepOver},    {"stepout", ExecutionMode::StepOut},
+    {"stepback", ExecutionMode::StepBack},    {"steplast", ExecutionMode::StepLast},
     {"stepmotion", ExecutionMode::StepMotion}};
 constexpr Word<StopMode> kStops[] = {{"stop", StopMode::Stop},
                                      {"cycle", StopMode::Cycle},
@@ -91,19 +92,29 @@ void Execution::addTo(Router& router, Subscribables& subscribables) {
                 changed, out);
         };
     };
-    subscribables.add({kPath, "ctrlexecstate", false, {},
+    subscribables.add({kPath,
+                       "ctrlexecstate",
+                       false,
+                       {},
                        watch("rap-ctrlexecstate-ev", "ctrlexecstate", Change::Execution, stateOf)});
-    subscribables.add({kPath, "rapidexeccycle", false, {},
+    subscribables.add({kPath,
+                       "rapidexeccycle",
+                       false,
+                       {},
                        watch("rap-execcycle-ev", "rapidexeccycle", Change::Cycle, cycleOf)});
 }
 
 Reply Execution::start(const Request& request) {
     const std::optional<ExecutionMode> mode = valueOf(kModes, request.form.text("execmode"));
-    if (!mode) return badParameter("execmode", "continue, stepin, stepover, stepout, stepback, steplast or stepmotion");
+    if (!mode)
+        return badParameter("execmode",
+                            "continue, stepin, stepover, stepout, stepback, steplast or stepmotion");
     if (!isOneOf(request, "regain", {"continue", "regain", "clear", "enterconsume"}))
         return badParameter("regain", "continue, regain, clear or enterconsume");
-    if (!isOneOf(request, "cycle", {"forever", "once", "asis"})) return badParameter("cycle", "forever, once or asis");
-    if (!isOneOf(request, "condition", {"none", "callchain"})) return badParameter("condition", "none or callchain");
+    if (!isOneOf(request, "cycle", {"forever", "once", "asis"}))
+        return badParameter("cycle", "forever, once or asis");
+    if (!isOneOf(request, "condition", {"none", "callchain"}))
+        return badParameter("condition", "none or callchain");
     if (!isOneOf(request, "stopatbp", {"enabled", "disabled"}))
         return badParameter("stopatbp", "enabled or disabled");
     if (request.form.has("alltaskbytsp") && !readBool(request.form.text("alltaskbytsp")))
@@ -112,6 +123,7 @@ Reply Execution::start(const Request& request) {
     const std::string cycle = request.form.text("cycle");
     const bool once = cycle == "once" || (cycle != "forever" && before);
     if (once != before) (void)controller_.setRunOnce(once);
+    programs_.setStopping(request.form.text("stopatbp") != "disabled");
     const service::Refusal refusal = controller_.start(*mode);
     if (!refusal.empty() && once != before) (void)controller_.setRunOnce(before);
     return replyTo(refusal, ReturnCode::StartRefused);
@@ -120,18 +132,21 @@ Reply Execution::start(const Request& request) {
 Reply Execution::stop(const Request& request) {
     const std::optional<StopMode> mode = valueOf(kStops, request.form.text("stopmode"));
     if (!mode) return badParameter("stopmode", "stop, cycle, instr or qstop");
-    if (!isOneOf(request, "usetsp", {"normal", "alltsk", "alltask"})) return badParameter("usetsp", "normal or alltsk");
+    if (!isOneOf(request, "usetsp", {"normal", "alltsk", "alltask"}))
+        return badParameter("usetsp", "normal or alltsk");
     return replyTo(controller_.stop(*mode));
 }
 
 Reply Execution::setCycle(const Request& request) {
     const std::string cycle = request.form.text("cycle");
-    if (cycle != "forever" && cycle != "once" && cycle != "asis") return badParameter("cycle", "forever, once or asis");
+    if (cycle != "forever" && cycle != "once" && cycle != "asis")
+        return badParameter("cycle", "forever, once or asis");
     return cycle == "asis" ? Reply::done() : replyTo(controller_.setRunOnce(cycle == "once"));
 }
 
 Reply Execution::startFromMain() {
-    if (const service::Refusal refusal = controller_.resetPointers(); !refusal.empty()) return replyTo(refusal);
+    if (const service::Refusal refusal = controller_.resetPointers(); !refusal.empty())
+        return replyTo(refusal);
     return replyTo(controller_.start(ExecutionMode::Continue), ReturnCode::StartRefused);
 }
 

@@ -2,6 +2,7 @@
 // /rw/rapid/execution: start, stop, steps, program pointer to main, cycle.
 
 #include "tools/rws/access.h"
+#include "tools/rws/programs.h"
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
 #include "tools/service/virtual_controller.h"
@@ -10,8 +11,9 @@ namespace rapidc::rws {
 
 class Execution {
   public:
-    Execution(service::VirtualController& controller, const Access& access)
-        : controller_(controller), access_(access) {}
+    /// `programs` has the breakpoints.
+    Execution(service::VirtualController& controller, const Access& access, Programs& programs)
+        : controller_(controller), access_(access), programs_(programs) {}
 
     void addTo(Router& router, Subscribables& subscribables);
 
@@ -23,6 +25,7 @@ class Execution {
 
     service::VirtualController& controller_;
     const Access& access_;
+    Programs& programs_;
 };
 
 } // namespace rapidc::rws

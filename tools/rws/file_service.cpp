@@ -47,9 +47,11 @@ std::string contentTypeOf(const std::string& path) {
 }
 
 void describe(const FileEntry& file, Entry& entry) {
-    entry.value("fs-cdate", service::calendarText(file.created)).value("fs-mdate", service::calendarText(file.modified));
+    entry.value("fs-cdate", service::calendarText(file.created))
+        .value("fs-mdate", service::calendarText(file.modified));
     if (!file.isFolder)
-        entry.value("fs-size", fmt::format("{}", file.size)).value("fs-readonly", file.isReadOnly ? "true" : "false");
+        entry.value("fs-size", fmt::format("{}", file.size))
+            .value("fs-readonly", file.isReadOnly ? "true" : "false");
 }
 
 std::string hrefOf(const std::string& path) {
@@ -91,7 +93,8 @@ Reply FileService::volumes(const Request& request) const {
         Entry& entry = document.add(request.dialect == Dialect::V1 ? "fs-device" : "fs-dir", title);
         entry.self = "/fileservice/" + title;
         const auto [free, total] = volumes_.space(name);
-        entry.value("fs-free-space", fmt::format("{}", free)).value("fs-total-space", fmt::format("{}", total));
+        entry.value("fs-free-space", fmt::format("{}", free))
+            .value("fs-total-space", fmt::format("{}", total));
     }
     return Reply::of(std::move(document));
 }
@@ -140,7 +143,8 @@ Reply FileService::create(const Request& request) const {
 
 Reply FileService::copy(const Request& request) const {
     const bool overwrite = flagIn(fieldOf(request, "fs-overwrite")).value_or(false);
-    const FileResult copied = volumes_.copy(request.parameter("path"), fieldOf(request, "fs-newname"), overwrite);
+    const FileResult copied =
+        volumes_.copy(request.parameter("path"), fieldOf(request, "fs-newname"), overwrite);
     return copied.isDone() ? Reply::done() : refuseFile(copied);
 }
 

@@ -29,7 +29,9 @@ Reply noDevice(const std::string& name) {
 void IoUnits::describeNetwork(const std::string& name, Entry& entry) const {
     const bool works = !devices().isNetworkInError(name);
     entry.self = "/rw/iosystem/networks/" + escapedSegment(name);
-    entry.value("name", name).value("pstate", works ? "running" : "halted").value("lstate", works ? "started" : "stopped");
+    entry.value("name", name)
+        .value("pstate", works ? "running" : "halted")
+        .value("lstate", works ? "started" : "stopped");
 }
 
 Reply IoUnits::networks(const Request& request) const {
@@ -86,7 +88,10 @@ void IoUnits::describeDevice(const std::string& name, Entry& entry) const {
     entry.self = fmt::format("/rw/iosystem/devices/{}/{}", escapedSegment(network), escapedSegment(name));
     entry.value("name", name).value("lstate", devices().isActive(name) ? "enabled" : "disabled");
     const bool runs = devices().isActive(name) && devices().hasContact(name);
-    entry.value("pstate", runs ? "running" : devices().isActive(name) ? "error" : "disabled").value("address", "-");
+    entry.value("pstate", runs                       ? "running"
+                          : devices().isActive(name) ? "error"
+                                                     : "disabled")
+        .value("address", "-");
     entry.value("network", network);
 }
 
@@ -102,7 +107,8 @@ Reply IoUnits::listDevices(const Request& request) const {
     document.place = Document::Place::Resources;
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i)
-        describeDevice(names[i], document.add("ios-device-li", devices().networkOf(names[i]) + "/" + names[i]));
+        describeDevice(names[i],
+                       document.add("ios-device-li", devices().networkOf(names[i]) + "/" + names[i]));
     return Reply::of(std::move(document));
 }
 
@@ -122,7 +128,8 @@ Reply IoUnits::setDevice(const Request& request) {
     if (!enables && !sameName(state, "disable") && !sameName(state, "disabled"))
         return Reply::refuse(ReturnCode::BadParameter, "lstate is 'enable' or 'disable'");
     if (!enables && devices().mustStayActive(name))
-        return Reply::refuse(ReturnCode::Rejected, fmt::format("the trust level of device {} does not let it be disabled", name));
+        return Reply::refuse(ReturnCode::Rejected,
+                             fmt::format("the trust level of device {} does not let it be disabled", name));
     devices().setActive(name, enables);
     return Reply::done();
 }
@@ -130,11 +137,13 @@ Reply IoUnits::setDevice(const Request& request) {
 Reply IoUnits::search(const Request& request) const {
     const std::string wanted = fieldOf(request, "name"), state = fieldOf(request, "lstate");
     const std::string network = fieldOf(request, "network");
-    if (wanted.empty() && state.empty()) return Reply::refuse(ReturnCode::BadParameter, "give name or lstate");
+    if (wanted.empty() && state.empty())
+        return Reply::refuse(ReturnCode::BadParameter, "give name or lstate");
     Document document;
     document.place = Document::Place::Resources;
     for (const std::string& name : devices().deviceNames()) {
-        const bool isState = state.empty() || sameName(state, devices().isActive(name) ? "enabled" : "disabled");
+        const bool isState =
+            state.empty() || sameName(state, devices().isActive(name) ? "enabled" : "disabled");
         const bool isNetwork = network.empty() || sameName(devices().networkOf(name), network);
         if (!containsName(name, wanted) || !isState || !isNetwork) continue;
         describeDevice(name, document.add("ios-device-li", devices().networkOf(name) + "/" + name));
@@ -150,7 +159,8 @@ void IoUnits::addTo(Router& router, Subscribables&) {
         Document document;
         document.place = Document::Place::Resources;
         for (const char* part : {"devices", "networks", "signals"})
-            document.add("ios-system-li", part).value("name", part).self = fmt::format("/rw/iosystem/{}", part);
+            document.add("ios-system-li", part).value("name", part).self =
+                fmt::format("/rw/iosystem/{}", part);
         return Reply::of(std::move(document));
     });
     router.getBoth(networks, [this](const Request& r) { return this->networks(r); });
@@ -161,8 +171,10 @@ void IoUnits::addTo(Router& router, Subscribables&) {
     router.getBoth(device, [this](const Request& r) { return this->device(r); });
     router.action(device, "set", [this](const Request& r) { return setDevice(r); });
     router.post(Dialect::V2, device + "/set-lstate", [this](const Request& r) { return setDevice(r); });
-    router.add(Dialect::V1, {Method::Post, devices, "search", [this](const Request& r) { return search(r); }});
-    router.add(Dialect::V2, {Method::Post, devices, "search", [this](const Request& r) { return search(r); }});
+    router.add(Dialect::V1,
+               {Method::Post, devices, "search", [this](const Request& r) { return search(r); }});
+    router.add(Dialect::V2,
+               {Method::Post, devices, "search", [this](const Request& r) { return search(r); }});
 }
 
 } // namespace rapidc::rws

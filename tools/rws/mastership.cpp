@@ -18,9 +18,8 @@ bool Mastership::isHeldBy(Domain domain, uint64_t session) const {
 }
 
 bool Mastership::isFree(const std::vector<Domain>& domains, uint64_t session) const {
-    return std::all_of(domains.begin(), domains.end(), [&](Domain domain) {
-        return holder(domain) == nullptr || isHeldBy(domain, session);
-    });
+    return std::all_of(domains.begin(), domains.end(),
+                       [&](Domain domain) { return holder(domain) == nullptr || isHeldBy(domain, session); });
 }
 
 bool Mastership::request(const std::vector<Domain>& domains, const Request& request) {

@@ -13,7 +13,8 @@ using Named = std::pair<const char*, std::vector<Domain>>;
 const std::vector<Named>& domainsOf(Dialect dialect) {
     static const std::vector<Named> kOld{
         {"cfg", {Domain::Cfg}}, {"motion", {Domain::Motion}}, {"rapid", {Domain::Rapid}}};
-    static const std::vector<Named> kNew{{"edit", {Domain::Cfg, Domain::Rapid}}, {"motion", {Domain::Motion}}};
+    static const std::vector<Named> kNew{{"edit", {Domain::Cfg, Domain::Rapid}},
+                                         {"motion", {Domain::Motion}}};
     return dialect == Dialect::V1 ? kOld : kNew;
 }
 
@@ -43,8 +44,9 @@ Reply heldByOther() {
 Handler MastershipResources::before8(Handler handler) const {
     return [this, handler = std::move(handler)](const Request& request) {
         if (request.dialect == Dialect::V2 && controller_.settings().robotWare >= 8)
-            return Reply::refuse(ReturnCode::Rejected,
-                                 "RobotWare 8 has control stations in place of mastership: /rw/controlstation", 410);
+            return Reply::refuse(
+                ReturnCode::Rejected,
+                "RobotWare 8 has control stations in place of mastership: /rw/controlstation", 410);
         return handler(request);
     };
 }
@@ -64,17 +66,23 @@ void MastershipResources::addTo(Router& router, Subscribables& subscribables) {
     router.post(Dialect::V2, one + "/release-with-id",
                 before8([this](const Request& request) { return releaseWithId(request); }));
     router.post(Dialect::V2, all + "/watchdog", before8([](const Request&) { return Reply::done(); }));
-    subscribables.add({one, "", false, {}, [this](const Request& request, const Changed& changed,
-                                                   Subscription& out) -> std::optional<Failure> {
-        const std::vector<Domain> domains = asked(request);
-        const bool gone = request.dialect == Dialect::V2 && controller_.settings().robotWare >= 8;
-        if (domains.empty() || gone) return Failure{ReturnCode::NotFound, "There is no such mastership"};
-        const std::string name = request.parameter("domain");
-        return watchState(
-            controller_.observers(), {service::Change::Mastership},
-            [this, request, name, domains] { return entryOf("msh-resource-ev", request, name, domains); }, changed,
-            out);
-    }});
+    subscribables.add(
+        {one,
+         "",
+         false,
+         {},
+         [this](const Request& request, const Changed& changed, Subscription& out) -> std::optional<Failure> {
+             const std::vector<Domain> domains = asked(request);
+             const bool gone = request.dialect == Dialect::V2 && controller_.settings().robotWare >= 8;
+             if (domains.empty() || gone) return Failure{ReturnCode::NotFound, "There is no such mastership"};
+             const std::string name = request.parameter("domain");
+             return watchState(
+                 controller_.observers(), {service::Change::Mastership},
+                 [this, request, name, domains] {
+                     return entryOf("msh-resource-ev", request, name, domains);
+                 },
+                 changed, out);
+         }});
 }
 
 Entry MastershipResources::entryOf(const char* type, const Request& request, const std::string& name,

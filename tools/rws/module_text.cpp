@@ -55,10 +55,12 @@ std::optional<std::pair<std::size_t, std::size_t>> bytesOf(std::string_view text
         last = text.rfind('\n') == std::string_view::npos ? 0 : text.rfind('\n') + 1;
     else
         last = rowStart(text, range.endRow);
-    if (first == std::string_view::npos || last == std::string_view::npos || last < first) return std::nullopt;
+    if (first == std::string_view::npos || last == std::string_view::npos || last < first)
+        return std::nullopt;
     const std::size_t lastEnd = rowEnd(text, last);
     const std::size_t begin = afterCharacters(text, first, rowEnd(text, first), range.startColumn - 1);
-    const std::size_t end = range.endColumn < 0 ? lastEnd : afterCharacters(text, last, lastEnd, range.endColumn);
+    const std::size_t end =
+        range.endColumn < 0 ? lastEnd : afterCharacters(text, last, lastEnd, range.endColumn);
     if (end < begin) return std::nullopt;
     return std::pair(begin, end);
 }
@@ -74,7 +76,8 @@ const rapid::syntax::ModuleDecl* headerOf(const rapid::syntax::SyntaxTree& tree,
 std::unique_ptr<rapid::syntax::SyntaxTree> readHeader(std::string_view text) {
     constexpr std::size_t kMost = 4096; // comments before the header may be long
     rapid::diag::Sink ignored;
-    auto source = std::make_shared<const rapid::SourceFile>("header.modx", std::string(text.substr(0, kMost)));
+    auto source =
+        std::make_shared<const rapid::SourceFile>("header.modx", std::string(text.substr(0, kMost)));
     return rapid::syntax::parse(std::move(source), ignored);
 }
 
@@ -96,6 +99,24 @@ std::optional<std::string> withRange(std::string_view text, const TextRange& ran
     return std::string(text.substr(0, begin)).append(part).append(text.substr(end));
 }
 
+std::optional<std::string> withInitialValue(const std::string& text, std::string_view module,
+                                            std::string_view name, std::string_view value) {
+    rapid::diag::Sink ignored;
+    const auto tree =
+        rapid::syntax::parse(std::make_shared<const rapid::SourceFile>("text.modx", text), ignored);
+    const rapid::syntax::ModuleDecl* header = headerOf(*tree, module);
+    if (header == nullptr) return std::nullopt;
+    for (const rapid::syntax::Decl* decl : header->decls) {
+        if (decl->kind != rapid::syntax::NodeKind::Data) continue;
+        const auto& data = rapid::syntax::as<rapid::syntax::DataDecl>(*decl);
+        if (!sameName(tree->text(data.name), name) || data.init == nullptr) continue;
+        const rapid::SourceRange range = tree->range(*data.init);
+        const std::string_view whole = tree->source->text();
+        return std::string(whole.substr(0, range.begin)).append(value).append(whole.substr(range.end));
+    }
+    return std::nullopt;
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text, std::string_view wanted,
                                                           std::size_t most) {
     std::vector<std::pair<std::size_t, std::size_t>> places;
@@ -108,7 +129,8 @@ std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text,
             rowBegin = line + 1;
         }
         const auto before = text.substr(rowBegin, at - rowBegin);
-        const auto characters = std::count_if(before.begin(), before.end(), [](char c) { return !isContinuation(c); });
+        const auto characters =
+            std::count_if(before.begin(), before.end(), [](char c) { return !isContinuation(c); });
         places.emplace_back(row, static_cast<std::size_t>(characters) + 1);
         from = at + wanted.size();
     }
@@ -120,7 +142,8 @@ std::pair<std::size_t, std::size_t> sizeOf(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = rowEnd(text, at);
         const auto row = text.substr(at, end - at);
-        const auto characters = std::count_if(row.begin(), row.end(), [](char c) { return !isContinuation(c); });
+        const auto characters =
+            std::count_if(row.begin(), row.end(), [](char c) { return !isContinuation(c); });
         longest = std::max(longest, static_cast<std::size_t>(characters));
         ++rows;
         at = text.find('\n', at);
@@ -155,8 +178,10 @@ std::string saveModule(rt::Controller& controller, const rt::Task& task, const r
     const auto index = static_cast<int32_t>(task.index());
     for (const rt::GlobalDesc* data : controller.tables().globals()) {
         std::string value;
-        const bool isOwn = sameName(data->module, module.name) && controller.tables().isDeclaredIn(*data, index);
-        if (isOwn && data->kind == rt::kGlobalPersistent && rt::valueToSource(data->address, *data->type, value))
+        const bool isOwn =
+            sameName(data->module, module.name) && controller.tables().isDeclaredIn(*data, index);
+        if (isOwn && data->kind == rt::kGlobalPersistent &&
+            rt::valueToSource(data->address, *data->type, value))
             values.push_back({data->module, data->name, std::move(value)});
     }
     const rapid::edit::SavedModule saved = rapid::edit::saveValues(*tree, values);

@@ -27,6 +27,9 @@ std::optional<std::string> partOf(std::string_view text, const TextRange& range)
 /// The text with another part in place of the range, or after or before it.
 std::optional<std::string> withRange(std::string_view text, const TextRange& range, std::string_view part,
                                      RangeMode mode);
+/// The text with another initial value of data that the module declares. None: it does not, or they have no initial value.
+std::optional<std::string> withInitialValue(const std::string& text, std::string_view module,
+                                            std::string_view name, std::string_view value);
 /// Rows and columns at which a text begins; at most `most` of them.
 std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text, std::string_view wanted,
                                                           std::size_t most);

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "runtime/host/module_saver.h"
+#include "tools/rws/mod_pos.h"
 #include "tools/rws/module_text.h"
 #include "tools/rws/rapid_support.h"
 
@@ -41,7 +42,8 @@ std::optional<TextRange> rangeOf(const Request& request) {
 std::string extensionOf(std::string_view name) {
     for (const char* known : {".modx", ".sysx", ".mod", ".sys", ".prg"}) {
         const std::string_view extension = known;
-        if (name.size() > extension.size() && sameName(name.substr(name.size() - extension.size()), extension))
+        if (name.size() > extension.size() &&
+            sameName(name.substr(name.size() - extension.size()), extension))
             return std::string(name.substr(name.size() - extension.size()));
     }
     return {};
@@ -61,7 +63,8 @@ Handler Modules::with(Method method) {
         asked.task = taskOf(controller_, request);
         if (asked.task == nullptr) return noTask(request);
         const std::string& name = request.parameter("module");
-        asked.module = controller_.core().tables().findModule(static_cast<int32_t>(asked.task->index()), name);
+        asked.module =
+            controller_.core().tables().findModule(static_cast<int32_t>(asked.task->index()), name);
         if (asked.module == nullptr || !controller_.moduleText(*asked.task, asked.module->name, asked.text))
             return Reply::refuse(ReturnCode::NoModule,
                                  "There is no module " + name + " in task " + asked.task->name());
@@ -95,6 +98,10 @@ void Modules::addTo(Router& router) {
         router.action(kOld, action, range);
     router.post(Dialect::V2, std::string(kNew) + "/text", text);
     router.post(Dialect::V2, std::string(kNew) + "/text/range", range);
+    const Handler modify = access_.guarded(Domain::Rapid, with(&Modules::modify));
+    for (const char* action : {"modify-position", "set-modify-position", "modpos"})
+        router.action(kOld, action, modify);
+    router.post(Dialect::V2, std::string(kNew) + "/modify-position", modify);
     router.action(kOld, "save", with(&Modules::save));
     router.post(Dialect::V2, std::string(kNew) + "/save", with(&Modules::save));
 }
@@ -119,9 +126,10 @@ Reply Modules::list(const Request& request) {
         for (const rt::LoadedModule& module : controller_.core().tables().modules()) {
             if (module.task >= 0 && module.task != static_cast<int32_t>(each->index())) continue;
             describe(*each, module, document);
-            document.entries.back().self = request.dialect == Dialect::V1
-                                               ? fmt::format("modules/{}?task={}", module.name, each->name())
-                                               : fmt::format("tasks/{}/modules/{}", each->name(), module.name);
+            document.entries.back().self =
+                request.dialect == Dialect::V1
+                    ? fmt::format("modules/{}?task={}", module.name, each->name())
+                    : fmt::format("tasks/{}/modules/{}", each->name(), module.name);
         }
     }
     return Reply::of(std::move(document));
@@ -131,7 +139,8 @@ Reply Modules::list(const Request& request) {
 Reply Modules::showOld(const Request& request, const Asked& asked) {
     const std::string resource = request.query.text("resource");
     if (sameName(resource, "module-text")) return text(request, asked);
-    if (sameName(resource, "change-count") || sameName(resource, "changecount")) return changeCount(request, asked);
+    if (sameName(resource, "change-count") || sameName(resource, "changecount"))
+        return changeCount(request, asked);
     if (sameName(resource, "module-extension")) return extension(request, asked);
     if (sameName(resource, "search") || sameName(resource, "text-search")) return search(request, asked);
     if (!resource.empty())
@@ -214,7 +223,17 @@ Reply Modules::setRange(const Request& request, const Asked& asked) {
     const std::optional<std::string> changed =
         range ? withRange(asked.text, *range, request.form.text("text"), how) : std::nullopt;
     if (!changed) return badParameter("startrow, startcol, endrow or endcol", "a place in the module");
-    return replyTo(controller_.setModuleText(*asked.task, asked.module->name, *changed), ReturnCode::Rejected, 400);
+    return replyTo(controller_.setModuleText(*asked.task, asked.module->name, *changed), ReturnCode::Rejected,
+                   400);
+}
+
+Reply Modules::modify(const Request& request, const Asked& asked) {
+    std::optional<TextRange> range = rangeOf(request);
+    if (!range) return badParameter("startrow, startcol, endrow or endcol", "a place in the module");
+    range->startColumn = 1; // whole rows: a column only says where the cursor is
+    range->endColumn = -1;
+    return replyTo(modifyPositions(controller_, *asked.task, asked.module->name, asked.text, *range),
+                   ReturnCode::Rejected, 400);
 }
 
 /// The module with the present values of its persistents, into a folder of a volume. RWS 2.0 always writes NAME.modx.

@@ -40,6 +40,7 @@ class Modules {
     Reply setText(const Request& request, const Asked& asked);
     Reply setRange(const Request& request, const Asked& asked);
     Reply save(const Request& request, const Asked& asked);
+    Reply modify(const Request& request, const Asked& asked);
     bool isSystem(const rt::Task& task, const rt::LoadedModule& module);
     void describe(const rt::Task& task, const rt::LoadedModule& module, Document& document);
 

@@ -94,7 +94,8 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     const Handler motors = [this](const Request& request) { return setMotors(request); };
     router.action("/rw/panel/ctrlstate", "setctrlstate", motors);
     router.post(Dialect::V2, "/rw/panel/ctrl-state", motors);
-    const Handler speed = access_.guarded(Domain::Rapid, [this](const Request& request) { return setSpeedRatio(request); });
+    const Handler speed =
+        access_.guarded(Domain::Rapid, [this](const Request& request) { return setSpeedRatio(request); });
     router.action("/rw/panel/speedratio", "setspeedratio", speed);
     router.post(Dialect::V2, "/rw/panel/speedratio", speed);
     router.action("/rw/panel", "restart", [this](const Request& request) { return restart(request); });
@@ -108,14 +109,16 @@ void Panel::addMode(Router& router) {
     router.postBoth("/rw/panel/opmode", mode);
     router.action("/rw/panel/opmode", "setopmode", mode);
     router.post(Dialect::V2, "/rw/panel/opmode/acknowledge", mode);
-    addOrder(router, "/rw/panel/opmode", "lock", "lock", [this](const Request& request) { return lock(request); });
+    addOrder(router, "/rw/panel/opmode", "lock", "lock",
+             [this](const Request& request) { return lock(request); });
     addOrder(router, "/rw/panel/opmode", "unlock", "unlock", [this](const Request&) {
         locked_ = false;
         return Reply::done();
     });
     router.get(Dialect::V2, "/rw/panel/opmode/lock-state", [this](const Request&) {
         Document document;
-        document.add("pnl-opmode-lockstate-li", "lock-state").value("lockstate", locked_ ? "locked" : "unlocked");
+        document.add("pnl-opmode-lockstate-li", "lock-state")
+            .value("lockstate", locked_ ? "locked" : "unlocked");
         return Reply::of(std::move(document));
     });
 }
@@ -144,18 +147,20 @@ void Panel::addStops(Router& router) {
 }
 
 void Panel::subscribe(Subscribables& subscribables) {
-    const auto add = [&](const char* name, const char* resource, std::optional<Dialect> only, const Value& value,
-                         Change change) {
+    const auto add = [&](const char* name, const char* resource, std::optional<Dialect> only,
+                         const Value& value, Change change) {
         subscribables.add({std::string("/rw/panel/") + name, resource, false, only,
                            [this, value, change](const Request&, const Changed& changed, Subscription& out) {
                                return watchState(
                                    controller_.observers(), {change},
-                                   [this, value] { return entryOf(controller_, value, "-ev"); }, changed, out);
+                                   [this, value] { return entryOf(controller_, value, "-ev"); }, changed,
+                                   out);
                            }});
     };
     add("ctrlstate", "", Dialect::V1, kMotors, Change::MotorState);
     add("ctrl-state", "", Dialect::V2, kMotors, Change::MotorState);
-    add("ctrl-state", "ctrlstate", Dialect::V2, kMotors, Change::MotorState); // some clients keep the old word
+    add("ctrl-state", "ctrlstate", Dialect::V2, kMotors,
+        Change::MotorState); // some clients keep the old word
     add("opmode", "", std::nullopt, kMode, Change::OperatingMode);
     add("speedratio", "", std::nullopt, kSpeed, Change::SpeedRatio);
     add("coldetstate", "", std::nullopt, kCollision, Change::MotorState);
@@ -182,7 +187,8 @@ Reply Panel::setSpeedRatio(const Request& request) {
     const std::string text = request.form.text("speed-ratio");
     // some clients write 50.0
     const std::size_t point = text.find('.');
-    const bool isWhole = point == std::string::npos || text.find_first_not_of('0', point + 1) == std::string::npos;
+    const bool isWhole =
+        point == std::string::npos || text.find_first_not_of('0', point + 1) == std::string::npos;
     const auto ratio = readWhole(std::string_view(text).substr(0, point), 0, 100);
     if (!ratio || !isWhole) return badParameter("speed-ratio", "a whole number from 0 to 100");
     return replyTo(controller_.setSpeedRatio(static_cast<int>(*ratio)));
@@ -212,7 +218,8 @@ Reply Panel::setChain(const Request& request, void (service::VirtualController::
     if (!opens && !closes) return badParameter("state", "off (engages the stop) or on (releases it)");
     (controller_.*order)(opens);
     // after a release the motors can be switched on again
-    if (closes && controller_.panel().motors == MotorState::EmergencyStopReset) (void)controller_.setMotors(false);
+    if (closes && controller_.panel().motors == MotorState::EmergencyStopReset)
+        (void)controller_.setMotors(false);
     return Reply::done();
 }
 

@@ -22,7 +22,8 @@ std::string position(uint32_t line, uint32_t column) {
     return line == 0 ? std::string() : fmt::format("{},{}", line, column);
 }
 
-Entry& add(Document& document, const char* title, const std::optional<PointerPlace>& found, uint64_t changes) {
+Entry& add(Document& document, const char* title, const std::optional<PointerPlace>& found,
+           uint64_t changes) {
     const bool isProgram = std::string_view(title) == "progpointer";
     const PointerPlace place = found.value_or(PointerPlace{});
     Entry& entry = document.add("pcp-info", title);
@@ -40,7 +41,8 @@ std::string number(uint32_t value) {
     return value == 0 ? std::string() : std::to_string(value);
 }
 
-Entry eventOf(const char* type, const char* title, const std::string& task, const std::optional<PointerPlace>& found) {
+Entry eventOf(const char* type, const char* title, const std::string& task,
+              const std::optional<PointerPlace>& found) {
     const PointerPlace place = found.value_or(PointerPlace{});
     Entry entry;
     entry.type = type;
@@ -59,19 +61,24 @@ Entry eventOf(const char* type, const char* title, const std::string& task, cons
 
 void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
     router.getBoth(kPath, [this](const Request& request) { return show(request); });
-    const auto order = [&](const char* oldName, const char* newName, Reply (ProgramPointers::*handler)(const Request&)) {
+    const auto order = [&](const char* oldName, const char* newName,
+                           Reply (ProgramPointers::*handler)(const Request&)) {
         addOrder(router, kPath, oldName, newName,
-                 access_.guarded(Domain::Rapid, [this, handler](const Request& request) { return (this->*handler)(request); }));
+                 access_.guarded(Domain::Rapid, [this, handler](const Request& request) {
+                     return (this->*handler)(request);
+                 }));
     };
     order("set-pp-routine", "routine", &ProgramPointers::toRoutine);
     order("set-pp-routine-from-url", "routine-from-url", &ProgramPointers::toUrl);
     order("set-pp-cursor", "cursor", &ProgramPointers::toCursor);
     order("set-pp-main", "reset", &ProgramPointers::toMain);
-    router.action(kPath, "reset", access_.guarded(Domain::Rapid, [this](const Request& request) { return toMain(request); }));
+    router.action(kPath, "reset",
+                  access_.guarded(Domain::Rapid, [this](const Request& request) { return toMain(request); }));
     addOrder(router, kPath, "next-inst", "next-inst",
              access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, true); }));
-    addOrder(router, kPath, "prev-inst", "prev-inst",
-             access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, false); }));
+    addOrder(
+        router, kPath, "prev-inst", "prev-inst",
+        access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, false); }));
     const auto watch = [this](const char* type, const char* title, Change change, auto read) {
         return [this, type, title, change, read](const Request& request, const Changed& changed,
                                                  Subscription& out) -> std::optional<Failure> {
@@ -87,10 +94,18 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
                 changed, out);
         };
     };
-    subscribables.add({kPath, "programpointerchange", false, {},
-                       watch("rap-pp-ev", "programpointerchange", Change::ProgramPointer, service::programPointer)});
-    subscribables.add({kPath, "motionpointerchange", false, {},
-                       watch("rap-mp-ev", "motionpointerchange", Change::MotionPointer, service::motionPointer)});
+    subscribables.add(
+        {kPath,
+         "programpointerchange",
+         false,
+         {},
+         watch("rap-pp-ev", "programpointerchange", Change::ProgramPointer, service::programPointer)});
+    subscribables.add(
+        {kPath,
+         "motionpointerchange",
+         false,
+         {},
+         watch("rap-mp-ev", "motionpointerchange", Change::MotionPointer, service::motionPointer)});
 }
 
 Reply ProgramPointers::show(const Request& request) {
@@ -146,7 +161,8 @@ Reply ProgramPointers::toCursor(const Request& request) {
 Reply ProgramPointers::toMain(const Request& request) {
     rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    if (task->isExecuting()) return Reply::refuse(ReturnCode::Rejected, "The task is executing: stop it first");
+    if (task->isExecuting())
+        return Reply::refuse(ReturnCode::Rejected, "The task is executing: stop it first");
     task->moveToMain();
     if (task->isMotionTask()) controller_.core().motion(*task).clearPath();
     controller_.observers().changed(Change::ProgramPointer, task);
@@ -170,7 +186,8 @@ Reply ProgramPointers::along(const Request& request, bool forward) {
             if (fits && desc.statements[i].canStart != 0) best = line;
         }
     }
-    if (best == 0) return Reply::refuse(ReturnCode::Rejected, "There is no such instruction in the routine", 400);
+    if (best == 0)
+        return Reply::refuse(ReturnCode::Rejected, "There is no such instruction in the routine", 400);
     return toLine(*task, now->module, best);
 }
 

@@ -73,10 +73,12 @@ void Programs::addTo(Router& router) {
 
 void Programs::addBreakpoints(Router& router) {
     const Handler list = [this](const Request& request) { return listBreaks(request); };
-    const Handler set = access_.guarded(Domain::Rapid, [this](const Request& request) { return setBreak(request); });
+    const Handler set =
+        access_.guarded(Domain::Rapid, [this](const Request& request) { return setBreak(request); });
     const Handler remove =
         access_.guarded(Domain::Rapid, [this](const Request& request) { return removeBreak(request); });
-    const std::string oldPath = std::string(kPath) + "/breakpoint", newPath = std::string(kPath) + "/breakpoints";
+    const std::string oldPath = std::string(kPath) + "/breakpoint",
+                      newPath = std::string(kPath) + "/breakpoints";
     router.get(Dialect::V1, oldPath, list);
     router.get(Dialect::V1, "/rw/rapid/tasks/{task}/breakpoints", list);
     router.action(oldPath, "set", set);
@@ -156,11 +158,13 @@ Reply Programs::save(const Request& request) {
     std::vector<std::string> files;
     for (const std::string& name : programModules(*task)) {
         std::string text;
-        const auto* module = controller_.core().tables().findModule(static_cast<int32_t>(task->index()), name);
+        const auto* module =
+            controller_.core().tables().findModule(static_cast<int32_t>(task->index()), name);
         if (module == nullptr || !controller_.moduleText(*task, name, text)) continue;
         files.push_back(name + extension);
         const std::string file = (fs::path(folder->host) / files.back()).string();
-        if (const std::string problem = saveModule(controller_.core(), *task, *module, text, file); !problem.empty())
+        if (const std::string problem = saveModule(controller_.core(), *task, *module, text, file);
+            !problem.empty())
             return Reply::refuse(ReturnCode::Rejected, problem);
     }
     const std::string file = (fs::path(folder->host) / (nameOf(*task) + ".pgf")).string();
@@ -171,15 +175,17 @@ Reply Programs::save(const Request& request) {
 Reply Programs::unload(const Request& request) {
     rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    return Reply::refuse(ReturnCode::Rejected,
-                         "Every task needs its main: load another program in place of this one, or unload single modules");
+    return Reply::refuse(
+        ReturnCode::Rejected,
+        "Every task needs its main: load another program in place of this one, or unload single modules");
 }
 
 Reply Programs::setName(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string name = request.form.text("name");
-    const bool isName = !name.empty() && name.size() <= 80 && name.find_first_of("/\\:\n\r") == std::string::npos &&
+    const bool isName = !name.empty() && name.size() <= 80 &&
+                        name.find_first_of("/\\:\n\r") == std::string::npos &&
                         name.find('\0') == std::string::npos && name.front() != '.';
     if (!isName) return badParameter("name", "a name that a file may have");
     names_[task->name()] = name;
@@ -192,14 +198,23 @@ Reply Programs::setEntry(const Request& request) {
     const std::string routine = request.form.text("routine");
     if (routine.empty()) return badParameter("routine", "the name of a procedure");
     if (sameName(routine, entryOf(*task))) return Reply::done();
-    return Reply::refuse(ReturnCode::Rejected, "The entry point is a parameter of the task (SYS, CAB_TASKS, Entry)");
+    return Reply::refuse(ReturnCode::Rejected,
+                         "The entry point is a parameter of the task (SYS, CAB_TASKS, Entry)");
 }
 
 // ---- Breakpoints -----------------------------------------------------------------------------------------------------
 
+rt::Breakpoint Programs::setInDebugger(const std::string& task, const std::string& module, uint32_t line) {
+    rt::Debugger& debugger = controller_.core().debugger();
+    debugger.watch();
+    return debugger.breakpoints().addLine(
+        module, line, [module](const rt::RoutineDesc& routine) { return rt::isPlace(routine, module); },
+        [this, task](rt::Task& at, rt::Frame*) { return stopping_ && sameName(at.name(), task); });
+}
+
 void Programs::setAgain() {
     for (Break& each : breaks_)
-        each.id = controller_.core().debugger().breakpoints().addLine(each.module, each.line).id;
+        each.id = setInDebugger(each.task, each.module, each.line).id;
 }
 
 Reply Programs::listBreaks(const Request& request) {
@@ -230,14 +245,16 @@ Reply Programs::setBreak(const Request& request) {
         return sameName(each.task, task->name()) && sameName(each.module, module) && each.line == *row;
     };
     if (std::any_of(breaks_.begin(), breaks_.end(), same)) return Reply::done();
-    if (breaks_.size() >= kMostBreakpoints) return Reply::refuse(ReturnCode::TooLarge, "There are too many breakpoints");
+    if (breaks_.size() >= kMostBreakpoints)
+        return Reply::refuse(ReturnCode::TooLarge, "There are too many breakpoints");
     rt::Breakpoints& breakpoints = controller_.core().debugger().breakpoints();
-    const rt::Breakpoint made = breakpoints.addLine(module, static_cast<uint32_t>(*row));
+    const rt::Breakpoint made = setInDebugger(task->name(), found->name, static_cast<uint32_t>(*row));
     if (made.actualLine != static_cast<uint32_t>(*row)) {
         breakpoints.remove(made.id);
         return badParameter("row", "a line in which an instruction begins");
     }
-    breaks_.push_back({task->name(), found->name, static_cast<uint32_t>(*row), static_cast<uint32_t>(*column), made.id});
+    breaks_.push_back(
+        {task->name(), found->name, static_cast<uint32_t>(*row), static_cast<uint32_t>(*column), made.id});
     return Reply::done();
 }
 

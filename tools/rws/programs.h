@@ -19,6 +19,8 @@ class Programs {
     Programs& operator=(const Programs&) = delete;
 
     void addTo(Router& router);
+    /// Whether breakpoints stop the program (stopatbp of a start).
+    void setStopping(bool stopping) { stopping_ = stopping; }
 
   private:
     struct Break {
@@ -39,6 +41,7 @@ class Programs {
     std::string nameOf(const rt::Task& task) const;
     std::string entryOf(const rt::Task& task) const;
     std::vector<std::string> programModules(const rt::Task& task);
+    rt::Breakpoint setInDebugger(const std::string& task, const std::string& module, uint32_t line);
     /// Breakpoints stay when the controller is restarted or the program replaced.
     void setAgain();
 
@@ -47,6 +50,7 @@ class Programs {
     service::Observers::Token observer_ = 0;
     std::map<std::string, std::string> names_; ///< that clients gave, by task
     std::vector<Break> breaks_;
+    bool stopping_ = true;
 };
 
 } // namespace rapidc::rws

@@ -7,8 +7,8 @@ namespace rapidc::rws {
 RapidServices::RapidServices(service::VirtualController& controller)
     : mastership_(controller.observers()), stations_(controller, mastership_),
       access_(controller, mastership_, users_, stations_), mastershipResources_(controller, mastership_),
-      panel_(controller, access_), execution_(controller, access_), tasks_(controller, access_),
-      pointers_(controller, access_), modules_(controller, access_), programs_(controller, access_),
+      panel_(controller, access_), programs_(controller, access_), execution_(controller, access_, programs_),
+      tasks_(controller, access_), pointers_(controller, access_), modules_(controller, access_),
       symbols_(controller, access_), dialogs_(controller), queues_(controller) {}
 
 void RapidServices::addTo(Router& router, Subscribables& subscribables) {

@@ -41,11 +41,11 @@ class RapidServices {
     Access access_;
     MastershipResources mastershipResources_;
     Panel panel_;
+    Programs programs_;
     Execution execution_;
     Tasks tasks_;
     ProgramPointers pointers_;
     Modules modules_;
-    Programs programs_;
     SymbolResources symbols_;
     Dialogs dialogs_;
     Queues queues_;

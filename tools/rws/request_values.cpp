@@ -20,7 +20,8 @@ constexpr std::size_t kMostDigits = 9;
 
 std::optional<double> numberIn(std::string_view text) {
     double value = 0;
-    if (text.empty() || text.size() > 64 || !rapid::config::parseNumber(trimmed(text), value) || !std::isfinite(value))
+    if (text.empty() || text.size() > 64 || !rapid::config::parseNumber(trimmed(text), value) ||
+        !std::isfinite(value))
         return std::nullopt;
     return value;
 }
@@ -45,7 +46,8 @@ std::optional<std::vector<double>> numbersIn(std::string_view text, std::size_t 
         const auto number = numberIn(text.substr(0, comma));
         if (!number) return std::nullopt;
         numbers.push_back(*number);
-        if (comma == std::string_view::npos) return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+        if (comma == std::string_view::npos)
+            return numbers.size() == count ? std::optional(numbers) : std::nullopt;
         text.remove_prefix(comma + 1);
     }
     return std::nullopt;
@@ -79,7 +81,8 @@ std::string escapedSegment(std::string_view segment) {
     std::string escaped;
     for (const char c : segment) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool isLetter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9');
+        const bool isLetter =
+            (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9');
         if (isLetter || c == '-' || c == '.' || c == '_' || c == '~' || c == '$')
             escaped += c;
         else
@@ -88,14 +91,16 @@ std::string escapedSegment(std::string_view segment) {
     return escaped;
 }
 
-std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page) {
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
+                                    ListPage& page) {
     const std::string startText = request.query.text("start"), limitText = request.query.text("limit");
     const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
     const auto limit = limitText.empty() ? std::optional(most) : countIn(limitText);
     if (!start || !limit || *limit == 0)
         return Failure{ReturnCode::BadPage, "start is a number from 0, limit one from 1", 0};
     if (*start > 0 && *start >= total)
-        return Failure{ReturnCode::BadPage, fmt::format("start is {}, but there are {} entries", *start, total), 0};
+        return Failure{ReturnCode::BadPage,
+                       fmt::format("start is {}, but there are {} entries", *start, total), 0};
     const std::size_t size = std::min(*limit, most);
     page.begin = *start;
     page.end = std::min(total, *start + size);

@@ -32,7 +32,8 @@ struct ListPage {
 };
 /// The page that a request asks for, of a list of `total` entries. Never more than `most` entries; a limit of 0 and a start that
 /// is not a number are failures.
-std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most, ListPage& page);
+std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
+                                    ListPage& page);
 
 /// The value of a field of the form or, when it has none of this name, of the query.
 std::string fieldOf(const Request& request, std::string_view name);

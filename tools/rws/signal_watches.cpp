@@ -67,7 +67,8 @@ void SignalWatches::beginGeneration() {
     table_->bySignal.clear();
     const rt::IoSystem& io = controller_.core().io();
     for (const auto& [number, listener] : table_->listeners)
-        if (const rt::SignalId signal = io.find(listener.name); signal >= 0) table_->bySignal[signal].push_back(number);
+        if (const rt::SignalId signal = io.find(listener.name); signal >= 0)
+            table_->bySignal[signal].push_back(number);
     std::vector<rt::SignalId> signals;
     for (const auto& [signal, numbers] : table_->bySignal)
         signals.push_back(signal);

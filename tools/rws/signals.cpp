@@ -33,7 +33,9 @@ std::string hrefOf(const std::string& title) {
 Entry& describe(const rt::IoSystem& io, rt::SignalId signal, Entry& entry) {
     const rt::SignalConfig& config = io.config(signal);
     entry.self = hrefOf(entry.title);
-    entry.value("name", config.name).value("type", rt::signalTypeName(config.type)).value("category", config.category);
+    entry.value("name", config.name)
+        .value("type", rt::signalTypeName(config.type))
+        .value("category", config.category);
     entry.value("lvalue", shown(io.value(signal)));
     entry.value("lstate", io.isSimulated(signal) ? kSimulated : kNotSimulated);
     entry.value("quality", io.access(rt::IoSystem::handleOf(signal)) == rt::IoResult::Ok ? "good" : "bad");
@@ -55,7 +57,8 @@ struct Criteria {
         const rt::SignalConfig& config = io.config(signal);
         if (!name.empty() && !containsName(config.name, name)) return false;
         if (!device.empty() && !sameName(config.device, device)) return false;
-        if (!network.empty() && (config.device.empty() || !sameName(io.devices().networkOf(config.device), network)))
+        if (!network.empty() &&
+            (config.device.empty() || !sameName(io.devices().networkOf(config.device), network)))
             return false;
         if (!category.empty() && !sameName(config.category, category)) return false;
         if (!type.empty() && !sameName(rt::signalTypeName(config.type), type)) return false;
@@ -110,7 +113,8 @@ Reply Signals::one(const Request& request) const {
     Entry& entry = describe(io(), signal, document.add("ios-signal", signalTitle(io(), signal)));
     entry.value("unitnm", config.device);
     entry.value("pvalue", shown(io().value(signal)));
-    entry.value("phstate", io().access(rt::IoSystem::handleOf(signal)) == rt::IoResult::Ok ? "valid" : "not valid");
+    entry.value("phstate",
+                io().access(rt::IoSystem::handleOf(signal)) == rt::IoResult::Ok ? "valid" : "not valid");
     entry.value("label", config.label).value("access-level", config.access);
     return Reply::of(std::move(document));
 }
@@ -122,8 +126,12 @@ Reply Signals::configuration(const Request& request) const {
     Document document;
     document.place = Document::Place::Resources;
     Entry& entry = document.add("ios-signal-cfg", signalTitle(io(), signal));
-    entry.value("name", config.name).value("type", rt::signalTypeName(config.type)).value("device", config.device);
-    entry.value("device-map", config.deviceMap).value("label", config.label).value("category", config.category);
+    entry.value("name", config.name)
+        .value("type", rt::signalTypeName(config.type))
+        .value("device", config.device);
+    entry.value("device-map", config.deviceMap)
+        .value("label", config.label)
+        .value("category", config.category);
     entry.value("access-level", config.access).value("default", shown(config.defaultValue));
     entry.value("min", shown(config.minValue)).value("max", shown(config.maxValue));
     return Reply::of(std::move(document));
@@ -147,13 +155,13 @@ std::optional<Failure> Signals::forbidden(rt::SignalId signal) const {
     const rt::SignalConfig& config = io().config(signal);
     if (sameName(config.access, "ReadOnly") || !levelLetsClientsWrite(config.access))
         return Failure{ReturnCode::Rejected,
-                       fmt::format("the access level {} of signal {} does not let clients write it", config.access,
-                                   config.name),
+                       fmt::format("the access level {} of signal {} does not let clients write it",
+                                   config.access, config.name),
                        403};
     if (rt::isInput(config.type) && !config.device.empty() && !io().isSimulated(signal))
         return Failure{ReturnCode::Rejected,
-                       fmt::format("{} is an input of device {}: simulate it first (lstate simulated)", config.name,
-                                   config.device),
+                       fmt::format("{} is an input of device {}: simulate it first (lstate simulated)",
+                                   config.name, config.device),
                        403};
     return std::nullopt;
 }
@@ -163,7 +171,8 @@ std::optional<Failure> Signals::setValue(rt::SignalId signal, const std::string&
     const rt::SignalConfig& config = io().config(signal);
     const auto value = numberIn(text);
     const bool isWhole = value && *value == std::floor(*value);
-    if (!value || (rt::isDigital(config.type) && *value != 0 && *value != 1) || (rt::isGroup(config.type) && !isWhole))
+    if (!value || (rt::isDigital(config.type) && *value != 0 && *value != 1) ||
+        (rt::isGroup(config.type) && !isWhole))
         return Failure{ReturnCode::BadParameter,
                        fmt::format("lvalue is '{}', which signal {} ({}) cannot have", text, config.name,
                                    rt::signalTypeName(config.type)),
@@ -171,12 +180,14 @@ std::optional<Failure> Signals::setValue(rt::SignalId signal, const std::string&
     switch (io().setByClient(signal, *value)) {
     case rt::IoResult::Ok: return std::nullopt;
     case rt::IoResult::NotWritable:
-        return Failure{ReturnCode::Rejected,
-                       fmt::format("a cross connection sets {}: simulate it first (lstate simulated)", config.name), 403};
+        return Failure{
+            ReturnCode::Rejected,
+            fmt::format("a cross connection sets {}: simulate it first (lstate simulated)", config.name),
+            403};
     default:
         return Failure{ReturnCode::BadParameter,
-                       fmt::format("lvalue is {}, outside the range {} to {} of signal {}", text, shown(config.minValue),
-                                   shown(config.maxValue), config.name),
+                       fmt::format("lvalue is {}, outside the range {} to {} of signal {}", text,
+                                   shown(config.minValue), shown(config.maxValue), config.name),
                        0};
     }
 }
@@ -185,8 +196,8 @@ std::optional<Failure> Signals::simulate(rt::SignalId signal, bool on) {
     const rt::SignalConfig& config = io().config(signal);
     if (sameName(config.access, "ReadOnly") || !levelLetsClientsWrite(config.access))
         return Failure{ReturnCode::Rejected,
-                       fmt::format("the access level {} of signal {} does not let clients simulate it", config.access,
-                                   config.name),
+                       fmt::format("the access level {} of signal {} does not let clients simulate it",
+                                   config.access, config.name),
                        403};
     if (io().isSimulated(signal) == on) return std::nullopt;
     io().simulate(signal, on);
@@ -269,7 +280,8 @@ void Signals::addTo(Router& router, Subscribables& subscribables) {
     router.post(Dialect::V2, each + "/set-value", [this](const Request& r) { return set(r); });
     router.post(Dialect::V2, each + "/set-lstate", [this](const Request& r) { return setState(r); });
     router.action(all, "unblock-signals", [this](const Request& r) { return endAllSimulations(r); });
-    router.post(Dialect::V2, all + "/unblock-signal", [this](const Request& r) { return endAllSimulations(r); });
+    router.post(Dialect::V2, all + "/unblock-signal",
+                [this](const Request& r) { return endAllSimulations(r); });
     router.action(all, "signal-search", [this](const Request& r) { return search(r, 1); });
     router.action(all, "signal-searchex", [this](const Request& r) { return search(r, 2); });
     router.post(Dialect::V2, all + "/signal-search", [this](const Request& r) { return search(r, 1); });

@@ -14,7 +14,8 @@ namespace rapidc::rws {
 
 class Signals {
   public:
-    explicit Signals(service::VirtualController& controller) : controller_(controller), watches_(controller) {}
+    explicit Signals(service::VirtualController& controller)
+        : controller_(controller), watches_(controller) {}
     void addTo(Router& router, Subscribables& subscribables);
 
   private:

@@ -21,12 +21,12 @@ struct TypeText {
     const char* word; ///< in the class
 };
 constexpr TypeText kTypes[] = {
-    {SymbolType::Task, "tsk", "task"},         {SymbolType::Module, "mod", "mod"},
-    {SymbolType::Atomic, "atm", "atomic"},     {SymbolType::Record, "rec", "record"},
-    {SymbolType::Alias, "ali", "alias"},       {SymbolType::Component, "rcp", "reccomp"},
-    {SymbolType::Constant, "con", "const"},    {SymbolType::Variable, "var", "var"},
-    {SymbolType::Persistent, "per", "pers"},   {SymbolType::Parameter, "par", "param"},
-    {SymbolType::Procedure, "prc", "proc"},    {SymbolType::Function, "fun", "func"},
+    {SymbolType::Task, "tsk", "task"},       {SymbolType::Module, "mod", "mod"},
+    {SymbolType::Atomic, "atm", "atomic"},   {SymbolType::Record, "rec", "record"},
+    {SymbolType::Alias, "ali", "alias"},     {SymbolType::Component, "rcp", "reccomp"},
+    {SymbolType::Constant, "con", "const"},  {SymbolType::Variable, "var", "var"},
+    {SymbolType::Persistent, "per", "pers"}, {SymbolType::Parameter, "par", "param"},
+    {SymbolType::Procedure, "prc", "proc"},  {SymbolType::Function, "fun", "func"},
     {SymbolType::Trap, "trp", "trap"},
 };
 /// Further words for them in searches.
@@ -128,9 +128,11 @@ Entry symbolEntry(const SymbolInfo& symbol, Dialect dialect, const char* suffix)
         entry.value("taskvar", boolText(symbol.type == SymbolType::Variable && symbol.isTaskOnly));
         entry.value("taskpers", boolText(symbol.type == SymbolType::Persistent && symbol.isTaskOnly));
     }
-    if (symbol.type == SymbolType::Record) entry.value("ncom", std::to_string(symbol.count)).value("valtyp", "val");
+    if (symbol.type == SymbolType::Record)
+        entry.value("ncom", std::to_string(symbol.count)).value("valtyp", "val");
     if (symbol.type == SymbolType::Atomic) entry.value("size", "0").value("valtyp", "val");
-    if (symbol.type == SymbolType::Component) entry.value("comnum", std::to_string(symbol.number)).value("ndim", "0");
+    if (symbol.type == SymbolType::Component)
+        entry.value("comnum", std::to_string(symbol.number)).value("ndim", "0");
     if (symbol.type == SymbolType::Procedure || symbol.type == SymbolType::Function)
         entry.value("npar", std::to_string(symbol.count));
     if (symbol.type == SymbolType::Parameter)

@@ -58,11 +58,13 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
     }
     addOrder(router, kTask, "loadmod", "loadmod",
              access_.guarded(Domain::Rapid, [this](const Request& request) { return loadModule(request); }));
-    addOrder(router, kTask, "unloadmod", "unloadmod",
-             access_.guarded(Domain::Rapid, [this](const Request& request) { return unloadModule(request); }));
-    addOrder(router, kTask, "abortexeclevel", "abortexeclevel", access_.guarded(Domain::Rapid, [](const Request&) {
-        return Reply::refuse(ReturnCode::Rejected, "The task executes on its normal level");
-    }));
+    addOrder(
+        router, kTask, "unloadmod", "unloadmod",
+        access_.guarded(Domain::Rapid, [this](const Request& request) { return unloadModule(request); }));
+    addOrder(router, kTask, "abortexeclevel", "abortexeclevel",
+             access_.guarded(Domain::Rapid, [](const Request&) {
+                 return Reply::refuse(ReturnCode::Rejected, "The task executes on its normal level");
+             }));
     addOrder(router, kTask, "link", "link", access_.guarded(Domain::Rapid, [](const Request&) {
         return Reply::done(); // programs are always linked
     }));
@@ -70,6 +72,10 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
                    [this](const Request& request) { return routines(request); });
     router.getBoth(std::string(kTask) + "/activation-record",
                    [this](const Request& request) { return activationRecord(request); });
+    router.get(Dialect::V2, "/rw/rapid/taskselection",
+               [this](const Request& request) { return selection(request); });
+    router.post(Dialect::V2, "/rw/rapid/taskselection",
+                access_.guarded(Domain::Rapid, [this](const Request& request) { return select(request); }));
     addCounters(router);
     subscribe(subscribables);
 }
@@ -93,7 +99,9 @@ void Tasks::addCounters(Router& router) {
     for (const char* which : {"program-pointer", "motion-pointer"}) {
         const Handler state = [which](const Request& request) {
             Document document;
-            document.add(request.parameter("task").empty() ? "rap-sync-state" : "rap-task-sync-state", "syncstate")
+            document
+                .add(request.parameter("task").empty() ? "rap-sync-state" : "rap-task-sync-state",
+                     "syncstate")
                 .value(std::string(which) + "-state", "On");
             return Reply::of(std::move(document));
         };
@@ -103,26 +111,30 @@ void Tasks::addCounters(Router& router) {
 }
 
 void Tasks::subscribe(Subscribables& subscribables) {
-    const auto add = [&](const char* pattern, const char* resource, const char* type, std::set<Change> changes,
-                         std::function<void(const rt::Task&, Entry&)> fill) {
-        subscribables.add({pattern, resource, false, {},
-                           [this, resource, type, changes, fill](const Request& request, const Changed& changed,
-                                                                 Subscription& out) -> std::optional<Failure> {
-                               const std::string name = request.parameter("task");
-                               if (!name.empty() && controller_.core().findTask(name) == nullptr)
-                                   return Failure{ReturnCode::NotFound, "There is no task " + name};
-                               return watchState(
-                                   controller_.observers(), changes,
-                                   [this, name, resource, type, fill] {
-                                       Entry entry;
-                                       entry.type = type;
-                                       entry.title = resource;
-                                       for (const auto& task : controller_.core().tasks())
-                                           if (name.empty() || sameName(task->name(), name)) fill(*task, entry);
-                                       return entry;
-                                   },
-                                   changed, out);
-                           }});
+    const auto add = [&](const char* pattern, const char* resource, const char* type,
+                         std::set<Change> changes, std::function<void(const rt::Task&, Entry&)> fill) {
+        subscribables.add(
+            {pattern,
+             resource,
+             false,
+             {},
+             [this, resource, type, changes, fill](const Request& request, const Changed& changed,
+                                                   Subscription& out) -> std::optional<Failure> {
+                 const std::string name = request.parameter("task");
+                 if (!name.empty() && controller_.core().findTask(name) == nullptr)
+                     return Failure{ReturnCode::NotFound, "There is no task " + name};
+                 return watchState(
+                     controller_.observers(), changes,
+                     [this, name, resource, type, fill] {
+                         Entry entry;
+                         entry.type = type;
+                         entry.title = resource;
+                         for (const auto& task : controller_.core().tasks())
+                             if (name.empty() || sameName(task->name(), name)) fill(*task, entry);
+                         return entry;
+                     },
+                     changed, out);
+             }});
     };
     const auto ofTask = [this](const rt::Task& task, Entry& entry) {
         entry.value("task-name", task.name())
@@ -232,7 +244,8 @@ Reply Tasks::loadModule(const Request& request) {
     std::error_code code;
     if (!path || !std::filesystem::is_regular_file(path->host, code))
         return Reply::refuse(ReturnCode::NoLoadPath, "There is no file " + given);
-    return replyTo(controller_.loadModule(*task, path->host, path->rapid, *replace), ReturnCode::Rejected, 400);
+    return replyTo(controller_.loadModule(*task, path->host, path->rapid, *replace), ReturnCode::Rejected,
+                   400);
 }
 
 Reply Tasks::unloadModule(const Request& request) {
@@ -241,9 +254,40 @@ Reply Tasks::unloadModule(const Request& request) {
     const std::string module = request.form.text("module");
     if (module.empty()) return badParameter("module", "the name of a module");
     if (controller_.core().tables().findModule(static_cast<int32_t>(task->index()), module) == nullptr)
-        return Reply::refuse(request.dialect == Dialect::V1 ? ReturnCode::UnknownSymbol : ReturnCode::NoModule,
+        return Reply::refuse(request.dialect == Dialect::V1 ? ReturnCode::UnknownSymbol
+                                                            : ReturnCode::NoModule,
                              "There is no module " + module + " in task " + task->name());
     return replyTo(controller_.unloadModule(*task, module), ReturnCode::Rejected, 400);
+}
+
+Reply Tasks::selection(const Request&) {
+    Document document;
+    for (const auto& task : controller_.core().tasks())
+        if (task->kind() == rt::TaskKind::Normal)
+            document.add("rap-taskselection", task->name())
+                .value("name", task->name())
+                .value("state", controller_.isTaskActive(*task) ? "ON" : "OFF")
+                .value("motiontask", task->isMotionTask() ? "TRUE" : "FALSE")
+                .value("usermodify", "TRUE");
+    return Reply::of(std::move(document));
+}
+
+/// task-1, task-2 ...: the tasks that are active; the other NORMAL tasks become inactive.
+Reply Tasks::select(const Request& request) {
+    std::set<const rt::Task*> selected;
+    for (const auto& [name, value] : request.form.all()) {
+        if (!name.starts_with("task-")) continue;
+        const rt::Task* task = controller_.core().findTask(value);
+        if (task == nullptr) return badParameter(name, "the name of a task");
+        selected.insert(task);
+    }
+    for (const auto& task : controller_.core().tasks()) {
+        const bool active = selected.contains(task.get());
+        if (task->kind() != rt::TaskKind::Normal || controller_.isTaskActive(*task) == active) continue;
+        if (const service::Refusal refusal = controller_.setTaskActive(*task, active); !refusal.empty())
+            return replyTo(refusal);
+    }
+    return Reply::done();
 }
 
 /// The place of one routine in progress.
@@ -287,8 +331,11 @@ Reply Tasks::routines(const Request& request) {
         }
         const std::string url = fmt::format("RAPID/{}/{}/{}", task->name(), routine->module, routine->name);
         Entry& entry = document.add("rap-task-routine", routine->name);
-        entry.value("routine-name", routine->name).value("service-routine", "TRUE").value("url-to-routine", url);
-        if (request.dialect == Dialect::V2) entry.value("routine_name", routine->name).value("url_to_routine", url);
+        entry.value("routine-name", routine->name)
+            .value("service-routine", "TRUE")
+            .value("url-to-routine", url);
+        if (request.dialect == Dialect::V2)
+            entry.value("routine_name", routine->name).value("url_to_routine", url);
     }
     return Reply::of(std::move(document));
 }

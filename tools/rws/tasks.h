@@ -25,6 +25,8 @@ class Tasks {
     Reply unloadModule(const Request& request);
     Reply activationRecord(const Request& request);
     Reply routines(const Request& request);
+    Reply selection(const Request& request);
+    Reply select(const Request& request);
     void describe(const rt::Task& task, Dialect dialect, Entry& entry) const;
     std::string parameterOf(const rt::Task& task, const char* name, const char* otherwise) const;
 

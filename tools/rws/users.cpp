@@ -36,7 +36,8 @@ constexpr Grant kGrants[] = {
     {"UAS_FTP_WRITE", "Write access to controller disks", "Write files"},
     {"UAS_REMOTE_LOGIN", "Remote login", "Log on from another computer"},
     {"UAS_REMOTE_WARMSTART", "Remote warm start", "Restart the controller from another computer"},
-    {"UAS_REMOTE_START_STOP_IN_AUTO", "Remote start and stop in auto", "Start and stop from another computer"},
+    {"UAS_REMOTE_START_STOP_IN_AUTO", "Remote start and stop in auto",
+     "Start and stop from another computer"},
 };
 
 } // namespace
@@ -60,7 +61,8 @@ void Users::addTo(Router& router) {
     });
     router.post(Dialect::V2, "/users/register",
                 [this](const Request& request) { return registerPerson(request); });
-    router.get(Dialect::V2, "/users/login-info", [this](const Request& request) { return loginInfo(request); });
+    router.get(Dialect::V2, "/users/login-info",
+               [this](const Request& request) { return loginInfo(request); });
     router.getBoth("/users/rmmp", [this](const Request& request) { return privilege(request); });
     router.postBoth("/users/rmmp", [this](const Request& request) { return requestPrivilege(request); });
     router.getBoth("/users/rmmp/poll", [this](const Request& request) { return poll(request); });

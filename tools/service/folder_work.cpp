@@ -154,4 +154,19 @@ int copyIn(int folder, const std::string& name, const std::string& target) {
     return error;
 }
 
+int copyAll(int from, int to, const std::string& except) {
+    struct stat forbidden{};
+    const bool isExcept = ::stat(except.c_str(), &forbidden) == 0;
+    std::vector<std::string> names;
+    if (!namesIn(from, names)) return errno;
+    for (const std::string& name : names) {
+        struct stat status{};
+        if (isUnfinished(name) || ::fstatat(from, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
+        if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) continue;
+        if (isExcept && status.st_dev == forbidden.st_dev && status.st_ino == forbidden.st_ino) continue;
+        if (const int error = copyTree(from, name, to, name, 0); error != 0 && error != ENOENT) return error;
+    }
+    return 0;
+}
+
 } // namespace rapidc::service

@@ -19,5 +19,8 @@ int replaceIn(int folder, const std::string& name, std::string_view bytes);
 int removeIn(int folder, const std::string& name);
 /// Copies a file or a folder with all that it holds, beside it. Links in it are left out. The copy is complete or absent.
 int copyIn(int folder, const std::string& name, const std::string& target);
+/// Copies all entries of an open folder into another one, except the folder of the host `except` (which may lie in it) and what is not
+/// finished. Links are left out.
+int copyAll(int from, int to, const std::string& except);
 
 } // namespace rapidc::service

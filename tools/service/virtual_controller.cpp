@@ -5,6 +5,8 @@
 
 #include "runtime/host/panel_switches.h"
 #include "runtime/host/stop_signals.h"
+#include "runtime/host/system_orders.h"
+#include "tools/service/panel_orders.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -19,7 +21,8 @@ constexpr rt::Time kMotionPeriod = 4 * rt::kMillisecond;
 
 } // namespace
 
-VirtualController::VirtualController(Settings settings) : settings_(std::move(settings)) {}
+VirtualController::VirtualController(Settings settings)
+    : settings_(std::move(settings)), panelOrders_(std::make_unique<PanelOrders>(*this)) {}
 
 VirtualController::~VirtualController() {
     core_.reset(); // before the code that it executes
@@ -27,7 +30,7 @@ VirtualController::~VirtualController() {
 
 std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edits, std::string& problems,
                                                           rt::ExitStatus& status) {
-    Inputs inputs = settings_.inputs;
+    Inputs inputs = inputs_;
     inputs.requireMain = true;
     inputs.adjust = [&edits](std::vector<rapid::sema::TaskInput>& tasks) { edits.applyTo(tasks); };
     auto compilation = checkInputs(inputs);
@@ -37,6 +40,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
             problems += problem + "\n";
         return nullptr;
     }
+    compilation->keepsPredefined = true;
     auto program = std::make_unique<LoadedProgram>(std::move(compilation));
     std::string error;
     const std::string name = std::filesystem::path(inputs.paths.front()).stem().string();
@@ -51,6 +55,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
 }
 
 rt::ExitStatus VirtualController::open() {
+    inputs_ = settings_.inputs;
     std::string problems;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     program_ = compile(edits_, problems, status);
@@ -73,13 +78,17 @@ rt::ExitStatus VirtualController::makeCore(const Succession& how) {
     core_->panel().setOutput(stderr, stderr); // standard output belongs to the addresses
     program_->equip(*core_);
     core_->setInbox(&inbox_);
+    core_->service<rt::SystemOrdersSlot>().host = panelOrders_.get();
     core_->setResident(how.programStart, how.motorsOn);
     if (!how.state.empty()) core_->continueFrom(how.state, how.powerOn);
     if (const rt::ExitStatus status = core_->prepare(program_->description());
         status != rt::ExitStatus::Ended)
         return status;
+    bool& areKept = core_->service<rt::SystemOrdersSlot>().valuesAreKept;
+    areKept = true; // values that stay give no orders
     for (const auto& [name, value] : how.signals)
         if (const rt::SignalId id = core_->io().find(name); id >= 0) (void)core_->io().force(id, value);
+    areKept = false;
     for (const auto& task : core_->tasks())
         core_->setTaskActive(*task, inactive_.count(task->name()) == 0);
     observe();
@@ -182,19 +191,51 @@ std::string VirtualController::folderOf(const std::string& volume) {
 Refusal VirtualController::restart(RestartMode mode) {
     auto next = std::make_unique<Succession>();
     next->programStart = next->motorsOn = settings_.programStart;
-    if (mode == RestartMode::Warm) {
-        next->state = core_->captureState();
-    } else {
+    if (release_) release_();
+    if (mode == RestartMode::Warm) next->state = core_->captureState();
+    if (mode == RestartMode::Cold || isConfigurationChanged_) {
         std::string problems;
         rt::ExitStatus status = rt::ExitStatus::Ended;
-        edits_.clear();
-        next->program = compile(edits_, problems, status);
-        if (!next->program) return "the program in its files has mistakes:\n" + problems;
+        const ModuleEdits edits = mode == RestartMode::Cold ? ModuleEdits() : edits_;
+        Inputs before = inputs_;
+        inputs_ = settings_.inputs;
+        if (chooseInputs_) chooseInputs_(inputs_);
+        next->program = compile(edits, problems, status);
+        if (!next->program) {
+            inputs_ = std::move(before);
+            return "the program has mistakes:\n" + problems;
+        }
+        edits_ = edits;
+        isConfigurationChanged_ = false;
     }
     panel_.motors = next->motorsOn ? MotorState::On : MotorState::Off;
     emergencyStop_ = safeguardOpen_ = false;
     succession_ = std::move(next);
     core_->endRun();
+    return {};
+}
+
+Refusal VirtualController::restore(const std::string& backup) {
+    Inputs before = settings_.inputs;
+    settings_.inputs.paths = {backup};
+    settings_.inputs.tasks.clear(); // they are in the backup
+    settings_.inputs.configFiles.clear();
+    std::function<void(Inputs&)> chooseInputs;
+    chooseInputs.swap(chooseInputs_); // changes of the configuration belong to what is replaced
+    Refusal refusal = restart(RestartMode::Cold);
+    chooseInputs_.swap(chooseInputs);
+    if (!refusal.empty()) {
+        settings_.inputs = std::move(before);
+        return refusal;
+    }
+    const std::string home = folderOf("HOME");
+    std::error_code code;
+    if (!home.empty() && std::filesystem::is_directory(backup + "/HOME", code))
+        std::filesystem::copy(backup + "/HOME", home,
+                              std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing |
+                                  std::filesystem::copy_options::skip_symlinks,
+                              code);
+    if (code) fmt::print(stderr, "HOME of the backup: {}\n", code.message());
     return {};
 }
 

@@ -44,6 +44,8 @@ enum class RestartMode : uint8_t {
     Cold, ///< everything as at the first start, the program from its files
 };
 
+class PanelOrders;
+
 // Size: the orders of a controller in one place, so that every client finds the same ones.
 class VirtualController {
   public:
@@ -67,6 +69,12 @@ class VirtualController {
     const LoadedProgram& program() const { return *program_; }
     const Settings& settings() const { return settings_; }
     Observers& observers() { return observers_; }
+    /// Called before the present controller is replaced, while its state is still to be taken: what refers to it has to be given up.
+    void onRelease(std::function<void()> action) { release_ = std::move(action); }
+    /// Called before the compilation of a restart: may choose other files of the configuration.
+    void onInputs(std::function<void(Inputs&)> action) { chooseInputs_ = std::move(action); }
+    /// The files of the configuration are other ones now: the next restart compiles anew.
+    void noteConfiguration() { isConfigurationChanged_ = true; }
     /// The folder of the host that a volume is, e.g. "HOME"; "" when there is none of this name.
     std::string folderOf(const std::string& volume);
 
@@ -80,6 +88,8 @@ class VirtualController {
     Refusal setRunOnce(bool once);
     /// The emergency stop button: pressed or released. After its release the motors are off until setMotors().
     void pressEmergencyStop(bool pressed);
+    /// The reset of an emergency stop, after the release of its button: motors off.
+    Refusal confirmEmergencyStop();
     /// A safeguard: open or closed.
     void openSafeguard(bool open);
 
@@ -115,6 +125,13 @@ class VirtualController {
     // ---- The controller itself -------------------------------------------------------------------------------
     /// Takes effect after the command in progress; commands posted later wait for the new controller.
     Refusal restart(RestartMode mode);
+    /// An order has been given that replaces the present controller.
+    bool isBeingReplaced() const { return succession_ != nullptr; }
+    /// The orders of system inputs.
+    PanelOrders& panelOrders() { return *panelOrders_; }
+    /// A cold restart with the programs, the configuration and the HOME of a backup, a folder of the host. Files of HOME that the backup
+    /// does not have stay.
+    Refusal restore(const std::string& backup);
 
     // ---- Virtual time ----------------------------------------------------------------------------------------
     /// Per cent of the wall clock's pace; 0: as fast as possible.
@@ -146,6 +163,7 @@ class VirtualController {
     void noteModules(const rt::Task& task, const std::string& what);
     Refusal programStopped(const char* order) const;
     void applyPanel();
+    void switchCycle(const char* change);
     void carryOutCursor();
     void everyFourMilliseconds();
 
@@ -154,6 +172,7 @@ class VirtualController {
     Observers observers_;
     PanelState panel_;
     StateWatch watch_{*this};
+    std::unique_ptr<PanelOrders> panelOrders_;
     ModuleEdits edits_;
     std::unique_ptr<LoadedProgram> program_;
     std::unique_ptr<rt::Controller> core_;
@@ -167,6 +186,10 @@ class VirtualController {
         uint32_t line = 0;
     };
     std::optional<Cursor> cursor_; ///< where the program pointer goes as soon as its routine has been entered
+    std::function<void()> release_;
+    std::function<void(Inputs&)> chooseInputs_;
+    Inputs inputs_; ///< of the present program
+    bool isConfigurationChanged_ = false;
     bool cycleStop_ = false;
     bool safeguardOpen_ = false, emergencyStop_ = false;
     int pace_ = 100;

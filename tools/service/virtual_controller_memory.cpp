@@ -70,6 +70,7 @@ Refusal VirtualController::replaceProgram(ModuleEdits edits, const rt::Task& tas
     if (!next->program) return "the program would have mistakes:\n" + problems;
     edits_ = std::move(edits);
     noteModules(task, what);
+    if (release_) release_();
     next->state = core_->captureState();
     next->powerOn = false;
     next->motorsOn = core_->motorsOn();

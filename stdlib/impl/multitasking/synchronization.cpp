@@ -91,6 +91,7 @@ Status readList(Task& owner, const char* instruction, const data::Tasks* list, i
                 Tasks& partners) {
     for (int32_t i = 0; i < count; ++i) {
         const std::string name(list[i].taskname.view());
+        if (name.empty()) continue; // lists for up to so many robots have empty places
         Task* partner = owner.controller().findTask(name);
         if (partner == nullptr)
             return misuse(owner,

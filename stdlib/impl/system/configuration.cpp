@@ -147,8 +147,8 @@ void Configuration::addRobots(Controller& controller) {
 
 bool Configuration::Path::read(std::string_view text) {
     std::vector<std::string> parts;
-    if (text.empty() || text[0] != '/') return false;
-    for (std::size_t begin = 1; begin <= text.size();) {
+    if (text.starts_with('/')) text.remove_prefix(1); // programs that run on controllers leave it out
+    for (std::size_t begin = 0; begin <= text.size();) {
         // The value of an attribute may contain slashes.
         const std::size_t end =
             parts.size() == 3 ? text.size() : std::min(text.find('/', begin), text.size());

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <fstream>
+
 using namespace rapidc::rws;
 
 namespace {
@@ -448,4 +451,200 @@ TEST_CASE("Users, grants and login (serve-contract 8, 22)", "[rws]") {
     CHECK(served.read(kNew, "/uas/grants", "grant-name", "grant-info") == "UAS_FULL_ACCESS");
     CHECK(served.read(kNew, "/uas/user/grants", "grantname", "uas-grant") == "UAS_FULL_ACCESS");
     CHECK(served.read(kNew, "/users/grant-exists?grant=UAS_BACKUP", "status") == "true");
+}
+
+TEST_CASE("Loading and unloading modules (serve-contract 36)", "[rws]") {
+    ServedController served(kModules);
+    REQUIRE(served.opened());
+    served.writeHome(
+        "Extra.mod",
+        "MODULE Extra\n   RECORD pair\n      num a;\n      num b;\n   ENDRECORD\n"
+        "   PERS pair both := [1,2];\n   LOCAL VAR num table{4};\n   PROC helper()\n   ENDPROC\nENDMODULE\n");
+    served.writeHome("Wrong.mod",
+                     "MODULE Wrong\n   PROC wrong()\n      unknown := 1;\n   ENDPROC\nENDMODULE\n");
+    const auto load = [&](const std::string& path, const std::string& replace) {
+        FieldList form{{"modulepath", path}};
+        if (!replace.empty()) form.emplace_back("replace", replace);
+        return served.post(kOld, "/rw/rapid/tasks/T_ROB1?action=loadmod", form).status;
+    };
+    const auto modules = [&] {
+        const Reply reply = served.get(kOld, "/rw/rapid/modules?task=T_ROB1");
+        std::string all;
+        for (const Entry& entry : reply.document->entries)
+            all += entry.title + " ";
+        return all;
+    };
+    CHECK(load("$HOME/Wrong.mod", "") == 400);
+    CHECK(modules() == "Main1 ");
+    const Reply first =
+        served.post(kOld, "/rw/rapid/tasks/T_ROB1?action=loadmod", {{"modulepath", "$HOME/Extra.mod"}});
+    INFO((first.failure ? first.failure->message : ""));
+    CHECK(first.status == 204);
+    CHECK(modules() == "Main1 Extra ");
+    CHECK(load("$HOME/Extra.mod", "") == 400);
+    CHECK(load("$HOME/Extra.mod", "true") == 204);
+    CHECK(load("HOME:/Extra.mod", "maybe") == 400);
+    CHECK(load("$HOME/../Extra.mod", "") == 400);
+    // what was loaded is seen like everything else
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/Extra/both.b"), "value") == "2");
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/Extra/both"), "typurl") ==
+          "RAPID/T_ROB1/Extra/pair");
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/Extra/pair"), "ncom") == "2");
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/Extra/table"), "dim") == "4");
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/Extra/helper"), "symtyp") == "prc");
+    CHECK(
+        served.post(kOld, dataPath(kOld, "T_ROB1/Extra/both") + "?action=set", {{"value", "[3,4]"}}).status ==
+        204);
+    CHECK(served
+              .post(kOld, "/rw/rapid/modules/Extra?task=T_ROB1&action=save",
+                    {{"name", "Saved"}, {"path", "$HOME"}})
+              .status == 204);
+    std::ifstream saved(served.home() / "Saved.mod");
+    const std::string text((std::istreambuf_iterator<char>(saved)), {});
+    CHECK(text.find("PERS pair both := [3,4];") != std::string::npos);
+    CHECK(served
+              .post(kOld, "/rw/rapid/modules/Extra?task=T_ROB1&action=save",
+                    {{"name", "a/b"}, {"path", "$HOME"}})
+              .status == 400);
+    CHECK(served.post(kOld, "/rw/rapid/tasks/T_ROB1?action=unloadmod", {{"module", "Extra"}}).status == 204);
+    CHECK(modules() == "Main1 ");
+}
+
+TEST_CASE("Whole programs are saved and loaded (controller.md 2.3)", "[rws]") {
+    ServedController served(kModules);
+    REQUIRE(served.opened());
+    const std::string program = "/rw/rapid/tasks/T_ROB1/program";
+    CHECK(served.read(kOld, program, "entrypoint", "rap-program") == "main");
+    CHECK(served.read(kNew, program, "name") == "Main1");
+    CHECK(served.post(kNew, "/rw/mastership/edit/request").status == 204);
+    CHECK(served.post(kNew, program + "/name", {{"name", "Shop"}}).status == 204);
+    CHECK(served.post(kNew, program + "/save", {{"path", "HOME:/shop"}}).status == 204);
+    CHECK(std::filesystem::exists(served.home() / "shop" / "Shop.pgf"));
+    CHECK(std::filesystem::exists(served.home() / "shop" / "Main1.modx"));
+    served.writeHome(
+        "Other.mod",
+        "MODULE Other\n   VAR num only := 4;\n   PROC main()\n      Stop;\n   ENDPROC\nENDMODULE\n");
+    served.writeHome("Other.pgf", "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" "
+                                  "?>\n<Program>\n\t<Module>Other.mod</Module>\n</Program>\n");
+    served.writeHome("Bad.pgf", "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" "
+                                "?>\n<Program>\n\t<Module>None.mod</Module>\n</Program>\n");
+    CHECK(served.post(kNew, program + "/load", {{"progpath", "HOME:/Bad.pgf"}}).status == 400);
+    CHECK(served.post(kNew, program + "/load", {{"progpath", "HOME:/Other.pgf"}, {"loadmode", "replace"}})
+              .status == 204);
+    CHECK(served.read(kNew, "/rw/rapid/tasks/T_ROB1/modules", "name") == "Other");
+    CHECK(served.read(kNew, program, "name") == "Other");
+    CHECK(served.read(kNew, dataPath(kNew, "T_ROB1/Other/only"), "value") == "4");
+    CHECK(served.read(kNew, "/rw/rapid/tasks/T_ROB1/pcp", "beginposition") == "4,7");
+    CHECK(served.post(kNew, program + "/load", {{"progpath", "HOME:/shop/Shop.pgf"}}).status == 204);
+    CHECK(served.read(kNew, "/rw/rapid/tasks/T_ROB1/modules", "name") == "Main1");
+}
+
+TEST_CASE("Breakpoints stop the program and stay when it is replaced (serve-contract 31)", "[rws]") {
+    ServedController served(kModules);
+    REQUIRE(served.opened());
+    const std::string breakpoints = "/rw/rapid/tasks/T_ROB1/program/breakpoints";
+    CHECK(served.post(kNew, breakpoints, {{"module", "Main1"}, {"row", "18"}, {"column", "1"}}).status ==
+          403);
+    CHECK(served.post(kNew, "/rw/mastership/edit/request").status == 204);
+    CHECK(served.post(kNew, breakpoints, {{"module", "Main1"}, {"row", "18"}, {"column", "1"}}).status ==
+          204);
+    CHECK(served.post(kNew, breakpoints, {{"module", "Main1"}, {"row", "1"}, {"column", "1"}}).status == 400);
+    CHECK(served.read(kNew, breakpoints, "row", "rap-breakpoint-li") == "18");
+    CHECK(served.post(kNew, "/rw/panel/ctrl-state", {{"ctrl-state", "motoron"}}).status == 204);
+    CHECK(served.post(kNew, "/rw/rapid/execution/start", {{"stopatbp", "enabled"}}).status == 204);
+    REQUIRE(served.waitFor(kNew, "/rw/rapid/tasks/T_ROB1/pcp", "beginposition", "18,7"));
+    REQUIRE(served.waitFor(kNew, "/rw/rapid/execution", "ctrlexecstate", "stopped"));
+    CHECK(served.read(kNew, dataPath(kNew, "T_ROB1/Main1/main/inner"), "value") == "1");
+    CHECK(served.call(kNew, Method::Delete, breakpoints + "?module=Main1&row=18&column=1").status == 204);
+    CHECK(served.get(kNew, breakpoints).document->entries.empty());
+}
+
+TEST_CASE("Positions are modified in memory and in constants (controller.md 2.3)", "[rws]") {
+    ServedController served({{"Main1.mod", R"(MODULE Main1
+   CONST robtarget p10 := [[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];
+   PERS robtarget p20 := [[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];
+   PROC main()
+      MoveJ p10, v100, fine, tool0;
+      MoveJ p20, v100, fine, tool0;
+      Stop;
+   ENDPROC
+ENDMODULE
+)"}});
+    REQUIRE(served.opened());
+    const std::string modify = "/rw/rapid/modules/Main1?task=T_ROB1&action=modify-position";
+    const std::string before = served.read(kOld, dataPath(kOld, "T_ROB1/p20"), "value");
+    CHECK(served.post(kOld, modify, {{"startrow", "7"}}).status == 400);
+    CHECK(served.post(kOld, modify, {{"startrow", "6"}}).status == 204);
+    const std::string after = served.read(kOld, dataPath(kOld, "T_ROB1/p20"), "value");
+    CHECK(after != before);
+    CHECK(served.post(kOld, modify, {{"startrow", "5"}}).status == 204);
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/p10"), "value") == after);
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/p20"), "value") ==
+          after); // the data survive the new program
+}
+
+TEST_CASE("Activation of tasks (controller.md 2.3)", "[rws]") {
+    ServedController served(kModules);
+    REQUIRE(served.opened());
+    CHECK(served.post(kOld, "/rw/rapid/tasks/T_ROB1?action=deactivate").status == 204);
+    CHECK(served.read(kOld, "/rw/rapid/tasks", "active") == "Off");
+    CHECK(served.read(kNew, "/rw/rapid/taskselection", "state", "rap-taskselection") == "OFF");
+    CHECK(served.post(kNew, "/rw/rapid/tasks/activate", {{"task", "T_ROB1"}}).status == 403);
+    CHECK(served.post(kNew, "/rw/rapid/tasks/activate?mastership=implicit", {{"task", "T_ROB1"}}).status ==
+          204);
+    CHECK(served.read(kOld, "/rw/rapid/tasks", "active") == "On");
+    CHECK(served.post(kOld, "/rw/rapid/tasks/None?action=activate").status == 404);
+}
+
+TEST_CASE("The stops of the panel and the lock of the mode (controller.md 2.3)", "[rws]") {
+    ServedController served(kModules);
+    REQUIRE(served.opened());
+    const auto state = [&] {
+        return served.read(kNew, "/rw/panel/ctrl-state", "ctrlstate", "pnl-ctrlstate");
+    };
+    const auto motors = [&](const char* to) {
+        return served.post(kNew, "/rw/panel/ctrl-state", {{"ctrl-state", to}}).status;
+    };
+    CHECK(motors("motoron") == 204);
+    CHECK(state() == "motoron");
+    CHECK(served.post(kNew, "/rw/panel/emergency-stop", {{"state", "off"}}).status == 204);
+    CHECK(state() == "emergencystop");
+    CHECK(motors("motoron") == 403);
+    CHECK(served.post(kNew, "/rw/panel/emergency-stop", {{"state", "on"}}).status == 204);
+    CHECK(state() == "motoroff");
+    CHECK(served.post(kNew, "/rw/panel/general-stop", {{"state", "off"}}).status == 204);
+    CHECK(state() == "guardstop");
+    CHECK(served.post(kNew, "/rw/panel/general-stop", {{"state", "on"}}).status == 204);
+    CHECK(motors("motoron") == 204);
+    CHECK(motors("on") == 400);
+    CHECK(served.post(kNew, "/rw/panel/opmode/lock", {{"pin", "1234"}, {"permanent", "false"}}).status ==
+          204);
+    CHECK(served.read(kNew, "/rw/panel/opmode/lock-state", "lockstate") == "locked");
+    CHECK(served.post(kNew, "/rw/panel/opmode", {{"opmode", "man"}}).status == 403);
+    CHECK(served.post(kNew, "/rw/panel/opmode/unlock").status == 204);
+    CHECK(served.post(kNew, "/rw/panel/opmode", {{"opmode", "MAN"}}).status == 400);
+    CHECK(served.post(kNew, "/rw/panel/opmode", {{"opmode", "manf"}}).status == 204);
+    CHECK(served.read(kNew, "/rw/panel/opmode", "opmode") == "MANF");
+}
+
+TEST_CASE("Predefined data are found, whether the program uses them or not (controller.md 2.3, 6.3)",
+          "[rws]") {
+    ServedController served(
+        {{"Main1.mod", "MODULE Main1\n   PROC main()\n      Stop;\n   ENDPROC\nENDMODULE\n"}});
+    REQUIRE(served.opened());
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/user/reg1"), "value") == "0");
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/user/reg1") + "?action=set", {{"value", "3"}}).status ==
+          204);
+    CHECK(served.read(kOld, dataPath(kOld, "T_ROB1/reg1"), "value") == "3");
+    CHECK(served.read(kNew, dataPath(kNew, "T_ROB1/BASE/tool0"), "value") ==
+          "[TRUE,[[0,0,0],[1,0,0,0]],[0.001,[0,0,0.001],[1,0,0,0],0,0,0]]");
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/tool0/robhold") + "?action=set", {{"value", "FALSE"}})
+              .status == 400);
+    CHECK(served.post(kOld, dataPath(kOld, "T_ROB1/tool0.robhold") + "?action=set", {{"value", "FALSE"}})
+              .status == 403);
+    CHECK(served.read(kNew, propertiesPath(kNew, "T_ROB1/BASE/tool0"), "typurl", "rap-symproppers") ==
+          "RAPID/tooldata");
+    CHECK(served.read(kNew, propertiesPath(kNew, "tooldata/tframe"), "typurl", "rap-sympropreccomp") ==
+          "RAPID/pose");
+    CHECK(served.get(kOld, dataPath(kOld, "T_ROB1/clock1")).status == 400); // a clock has no value
 }

@@ -26,6 +26,8 @@ class ServedController {
             folder_.write(name, text);
             settings.inputs.paths.push_back((folder_.path / name).string());
         }
+        std::filesystem::create_directory(folder_.path / "home");
+        settings.options.home = (folder_.path / "home").string();
         settings.programStart = programStart;
         settings.robotWare = robotWare;
         settings.options.realtime = true;
@@ -47,6 +49,11 @@ class ServedController {
     ServedController& operator=(const ServedController&) = delete;
 
     bool opened() const { return opened_; }
+    /// The folder of $HOME.
+    std::filesystem::path home() const { return folder_.path / "home"; }
+    void writeHome(const std::string& name, const std::string& text) const {
+        folder_.write("home/" + name, text);
+    }
     RapidServices& services() { return *services_; }
     service::VirtualController& controller() { return *controller_; }
 

@@ -5,6 +5,7 @@
 #include "tools/program/run_setup.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/serve/serve_settings.h"
+#include "tools/rapidc/serve/serving.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -24,9 +25,12 @@ int serveInputs(serve::ServeSettings& settings) {
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
-        service::VirtualController controller(std::move(settings.controller));
+        service::VirtualController controller(settings.controller);
         status = controller.open();
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
+        serve::Serving serving(settings, controller);
+        if (const std::string problem = serving.open(); !problem.empty()) return usageError(problem);
+        serving.start();
         status = controller.run();
     }
     folders.clear();

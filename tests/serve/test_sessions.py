@@ -1,0 +1,230 @@
+"""Log on, cookies, logout, limits of sessions and requests (contract 11 to 14)."""
+
+import re
+import threading
+import time
+
+from serve_testing import ServeCase, main
+
+PATH = "/rw/panel/opmode"
+
+
+class Digest(ServeCase):
+    """Contract 11: Digest over HTTP."""
+
+    def challenge(self, client, path=PATH):
+        response = client.send("GET", path)
+        self.assertEqual(response.status, 401)
+        return response.header("www-authenticate")
+
+    def answer(self, client, authorization, path=PATH, method="GET"):
+        return client.send(method, path, None, {"Authorization": authorization})
+
+    def test_challenge(self):
+        client = self.client()
+        first, second = self.challenge(client), self.challenge(client)
+        self.assertTrue(first.startswith("Digest "))
+        self.assertIn("robapi", re.search(r'realm="([^"]*)"', first)[1])
+        self.assertRegex(first, r'qop="?auth"?')
+        nonces = {re.search(r'nonce="([^"]*)"', text)[1] for text in (first, second)}
+        self.assertEqual(len(nonces), 2, "nonces differ")
+
+    def test_both_users_with_and_without_qop(self):
+        for user in ("Default User", "Admin"):
+            for qop in (True, False):
+                with self.subTest(user=user, qop=qop):
+                    client = self.client(user=user)
+                    authorization = client.digest(self.challenge(client), "GET", PATH, qop=qop)
+                    response = self.answer(client, authorization)
+                    self.assertEqual(response.status, 200)
+                    client.cookies = response.cookies()
+
+    def test_a_counter_works_once(self):
+        client = self.client()
+        authorization = client.digest(self.challenge(client), "GET", PATH)
+        first = self.answer(client, authorization)
+        self.assertEqual(first.status, 200)
+        client.cookies = first.cookies()
+        again = self.answer(self.client(), authorization)
+        self.assertEqual(again.status, 401)
+        self.assertIsNone(again.header("set-cookie"))
+
+    def test_counters_of_one_nonce(self):
+        client = self.client()
+        challenge = self.challenge(client)
+        for counter in (1, 2, 5, 3):
+            authorization = client.digest(challenge, "GET", PATH, counter=counter)
+            response = self.answer(client, authorization)
+            self.assertEqual(response.status, 200, counter)
+            client.cookies = response.cookies()
+
+    def test_the_uri_must_be_the_one_of_the_request(self):
+        client = self.client()
+        authorization = client.digest(self.challenge(client), "GET", "/rw/panel/ctrlstate")
+        self.assertEqual(self.answer(client, authorization).status, 401)
+
+    def test_wrong_answers(self):
+        client = self.client(password="wrong")
+        self.assertEqual(client.get(PATH).status, 401)
+        client = self.client(user="Nobody")
+        self.assertEqual(client.get(PATH).status, 401)
+        client = self.client()
+        for text in ("Digest", "Digest ", "Digest username", 'Digest username="Default User', "Digest a=b,,", "Bearer x",
+                     'Digest username="Default User", nonce="x", response="y", uri="/rw/panel/opmode", realm="z"'):
+            with self.subTest(text=text):
+                self.assertEqual(self.answer(client, text).status, 401)
+
+    def test_no_basic_over_http(self):
+        client = self.client()
+        response = self.answer(client, client.basic())
+        self.assertEqual(response.status, 401)
+        self.assertTrue(response.header("www-authenticate").startswith("Digest "))
+
+
+class Basic(ServeCase):
+    """controller.md 2.1: Basic over HTTPS."""
+
+    def test_challenge_and_answers(self):
+        client = self.client(2)
+        response = client.get(PATH, login=False)
+        self.assertEqual(response.status, 401)
+        self.assertTrue(response.header("www-authenticate").startswith("Basic "))
+        for user, password, status in (("Admin", "robotics", 200), ("Default User", "robotics", 200), ("Admin", "wrong", 401),
+                                       ("Nobody", "robotics", 401), ("Admin", "", 401), ("", "", 401)):
+            with self.subTest(user=user, password=password):
+                self.assertEqual(self.client(2, user=user, password=password).get(PATH).status, status)
+
+    def test_broken_headers(self):
+        client = self.client(2)
+        for text in ("Basic", "Basic ", "Basic !!!", "Basic QQ", "Digest x=y"):
+            with self.subTest(text=text):
+                self.assertEqual(client.get(PATH, headers={"Authorization": text}, login=False).status, 401)
+
+    def test_wrong_passwords_cost_others_nothing(self):
+        """Contract 14, in its sense: while one guesses passwords, another client is answered."""
+        other = self.client(2)
+        self.assertEqual(other.get(PATH).status, 200)
+        end = threading.Event()
+
+        def guess():
+            client = self.server.client(2, password="wrong")
+            while not end.is_set():
+                client.get(PATH)
+            client.disconnect()
+
+        threads = [threading.Thread(target=guess) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        try:
+            begin = time.monotonic()
+            for _ in range(50):
+                self.assertEqual(other.get(PATH).status, 200)
+            self.assertLess(time.monotonic() - begin, 10)
+        finally:
+            end.set()
+            for thread in threads:
+                thread.join()
+
+
+class Cookies(ServeCase):
+    """Contract 12."""
+
+    def test_cookies_alone_suffice(self):
+        for client in self.both():
+            first = client.get(PATH)
+            self.assertEqual(first.status, 200)
+            cookies = first.cookies()
+            self.assertGreaterEqual(len(cookies["-http-session-"]), 16)
+            self.assertIn("ABBCX", cookies)
+            other = self.server.client(client.dialect)
+            other.cookies = cookies
+            self.assertEqual(other.get(PATH, login=False).status, 200)
+            other.disconnect()
+
+    def test_cookies_are_not_guessable(self):
+        values = [self.client(dialect).get(PATH).cookies()["-http-session-"] for dialect in (1, 1, 2, 2)]
+        self.assertEqual(len(set(values)), 4)
+        for client in self.both():
+            for value in ("", "x", values[0][:-1], values[0] + "0", "0" * 32):
+                client.cookies = {"-http-session-": value}
+                self.assertEqual(client.get(PATH, login=False).status, 401, value)
+            client.cookies = {}
+
+    def test_logout_ends_the_session(self):
+        for client in self.both():
+            self.assertEqual(client.get(PATH).status, 200)
+            self.assertIn(client.get("/logout").status, (200, 204))
+            self.assertEqual(client.get(PATH, login=False).status, 401)
+            client.cookies = {}
+
+    def test_logout_ends_event_sockets(self):
+        for client in self.both():
+            response = client.subscribe(PATH)
+            self.assertEqual(response.status, 201)
+            socket = self.socket(client, response)
+            self.assertEqual(socket.status, 101)
+            client.get("/logout")
+            self.assertIsNone(socket.text(5))
+            client.cookies = {}
+
+    def test_logout_ends_mastership(self):
+        client, other = self.client(2), self.client(2)
+        self.assertEqual(client.post("/rw/mastership/edit/request").status, 204)
+        self.assertEqual(other.post("/rw/mastership/edit/request").status, 403)
+        client.get("/logout")
+        client.cookies = {}
+        self.eventually(lambda: other.post("/rw/mastership/edit/request").status == 204)
+
+
+class Limits(ServeCase):
+    """Contract 13 and 14."""
+
+    def test_seventy_sessions(self):
+        # Not logged on: no sessions.
+        strangers = [self.server.client(1 + i % 2) for i in range(80)]
+        for client in strangers:
+            self.assertEqual(client.get(PATH, login=False, headers={"Authorization": "none"}).status, 401)
+        clients = [self.client(1 + i % 2) for i in range(70)]
+        for client in clients:
+            self.assertEqual(client.get(PATH).status, 200)
+        for dialect in (1, 2):
+            self.assertEqual(self.client(dialect).get(PATH).status, 503)
+        self.assertEqual(clients[0].get(PATH).status, 200, "sessions that exist are served")
+        clients[0].close()
+        late = self.client(2)
+        self.assertEqual(late.get(PATH).status, 200)
+        for client in [*clients, late, *strangers]:
+            client.close()
+
+    def burst(self, client, count):
+        """Sends requests over one connection without waiting; the status of each."""
+        raw = self.server.raw()
+        cookies = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
+        request = f"GET {PATH} HTTP/1.1\r\nHost: 127.0.0.1\r\nCookie: {cookies}\r\n\r\n".encode()
+        sender = threading.Thread(target=lambda: raw.send(request * count))
+        sender.start()
+        states = [raw.read().status for _ in range(count)]
+        sender.join()
+        raw.close()
+        return states
+
+    def test_floods_are_refused_for_their_session_only(self):
+        client, other = self.client(), self.client()
+        self.assertEqual(client.get(PATH).status, 200)
+        self.assertEqual(other.get(PATH).status, 200)
+        time.sleep(1.1)  # a second of its own
+        self.assertEqual(set(self.burst(client, 299)), {200})
+        time.sleep(1.1)
+        begin = time.monotonic()
+        states = self.burst(client, 2500)
+        if time.monotonic() - begin < 2:  # else the machine is too slow to flood
+            self.assertIn(503, states)
+        self.assertIn(200, states)
+        self.assertLessEqual(set(states), {200, 503})
+        self.assertEqual(other.get(PATH).status, 200)
+        time.sleep(2)
+        self.assertEqual(client.get(PATH).status, 200)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,81 @@
+#include "tools/rapidc/serve/serving.h"
+
+#include "tools/http/tls.h"
+#include "tools/rws/roots.h"
+
+#include <chrono>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace rapidc::serve {
+
+Serving::Serving(const ServeSettings& settings, service::VirtualController& controller)
+    : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
+      subscriptions_(subscribables_,
+                     [this](std::function<void()> work) { controller_.post(std::move(work)); }),
+      pendant_({controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
+               {.password = settings.password, .address = settings.address}) {
+    rws::addRoots(router_);
+    rapid_.addTo(router_, subscribables_);
+    plant_.addTo(router_, subscribables_);
+    subscriptions_.addTo(router_);
+    rws::FrontDoorSettings door;
+    door.password = settings.password;
+    door.postToController = [this](std::function<void()> work) { controller_.post(std::move(work)); };
+    door.sessionEnded = [this](uint64_t session) {
+        controller_.post([this, session] {
+            subscriptions_.sessionEnded(session);
+            rapid_.sessionEnded(session);
+        });
+    };
+    door.connectionEnded = [this](uint64_t connection) {
+        controller_.post([this, connection] { rapid_.connectionClosed(connection); });
+    };
+    door_ = std::make_unique<rws::FrontDoor>(std::move(door), router_);
+    door_->setSockets(&subscriptions_);
+    subscriptions_.onSockets([this](uint64_t session, int change) { door_->countSockets(session, change); });
+}
+
+Serving::~Serving() {
+    server_.stop();
+}
+
+std::string Serving::listen(const char* option, http::Endpoint endpoint, uint16_t& port) {
+    const std::string problem = server_.listen(endpoint, port);
+    return problem.empty() ? problem : fmt::format("{}={}: {}", option, endpoint.port, problem);
+}
+
+std::string Serving::open() {
+    std::string problem;
+    const auto identity = http::TlsIdentity::make("", {settings_.address}, problem);
+    if (!identity) return problem;
+    const std::string& address = settings_.address;
+    problem =
+        listen("--http-port",
+               {.address = address, .port = settings_.httpPort, .service = &door_->service(rws::Dialect::V1)},
+               httpPort_);
+    if (problem.empty())
+        problem = listen("--https-port",
+                         {.address = address,
+                          .port = settings_.httpsPort,
+                          .tls = identity,
+                          .service = &door_->service(rws::Dialect::V2)},
+                         httpsPort_);
+    if (problem.empty())
+        problem = listen("--web-port", {.address = address, .port = settings_.webPort, .service = &pendant_}, webPort_);
+    pendant_.setPort(webPort_);
+    return problem;
+}
+
+void Serving::start() {
+    server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
+    server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
+    server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
+    server_.start();
+    const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
+    fmt::print("{{\"http\":\"http://{0}:{1}\",\"https\":\"https://{0}:{2}\",\"web\":\"http://{0}:{3}\"}}\n",
+               host, httpPort_, httpsPort_, webPort_);
+    std::fflush(stdout);
+}
+
+} // namespace rapidc::serve

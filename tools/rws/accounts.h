@@ -1,0 +1,46 @@
+#pragma once
+// Accounts: the users of the controller and the proofs of their passwords. No password is kept. Used on the network thread only.
+
+#include "tools/rws/digest.h"
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace rapidc::rws {
+
+class Accounts {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /// 'Default User' and 'Admin' with this password.
+    explicit Accounts(const std::string& password);
+
+    /// Header Authorization of HTTP basic: the user, "" when it is refused.
+    /// `isBusy`: too many wrong passwords were tried within a second, so this one was not checked.
+    std::string checkBasic(std::string_view authorization, bool& isBusy);
+    /// Header Authorization of HTTP digest (MD5; with qop=auth or, as RFC 2069 has it, without). `stale`: the nonce is not valid any
+    /// more, so the client may try again with a new one.
+    std::string checkDigest(std::string_view authorization, std::string_view method, std::string_view target,
+                            bool& stale);
+    /// Value of WWW-Authenticate with a new nonce.
+    std::string digestChallenge(bool stale);
+    static std::string basicChallenge();
+
+  private:
+    struct User {
+        std::string salt, derived; ///< of the password, for basic
+        std::string ha1;           ///< of name, realm and password, for digest
+        std::string verified;      ///< proof of the header accepted last, so that it is derived once
+    };
+    bool mayTry();
+
+    std::map<std::string, User, std::less<>> users_;
+    DigestGuard digest_;
+    std::string key_; ///< of the proofs
+    Clock::time_point triesBegan_;
+    int tries_ = 0; ///< within a second
+};
+
+} // namespace rapidc::rws

@@ -1,0 +1,89 @@
+#include "tools/rws/backups.h"
+
+#include "frontend/project/backup.h"
+#include "tools/rws/file_service.h"
+#include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace rapidc::rws {
+
+namespace fs = std::filesystem;
+
+Backups::~Backups() {
+    if (writer_.joinable()) writer_.join();
+}
+
+Reply Backups::state(const Request&, const char* type) const {
+    const char* text = state_ == State::Init         ? "Init State"
+                       : state_ == State::InProgress ? "Backup in Progress"
+                       : state_ == State::Ready      ? "Backup Ready"
+                                                     : "Backup Error";
+    Document document;
+    document.add(type, "backup").value("backup-state", text).value("progress-state", state_ == State::InProgress ? "active" : "idle");
+    return Reply::of(std::move(document));
+}
+
+std::optional<Reply> Backups::folderIn(const Request& request, bool exists, std::string& host) const {
+    std::string path = pathInVolume(fieldOf(request, "backup"));
+    while (path.ends_with('/'))
+        path.pop_back();
+    if (path.empty() || path.find('/') == std::string::npos) return badParameter("backup", "/fileservice/$BACKUP/name");
+    if (const service::FileResult found = volumes_.hostPath(path, host); !found.isDone()) return refuseFile(found);
+    std::error_code code;
+    if (exists && !rapid::project::isBackup(host)) return Reply::refuse(ReturnCode::NoPath, fmt::format("{} is no backup", path));
+    if (!exists && fs::exists(fs::symlink_status(host, code))) return Reply::refuse(ReturnCode::Rejected, fmt::format("{} exists already", path), 409);
+    if (!exists && !fs::is_directory(fs::path(host).parent_path(), code))
+        return Reply::refuse(ReturnCode::NoPath, fmt::format("the folder of {} does not exist", path));
+    return std::nullopt;
+}
+
+/// The content is taken now; a thread of its own writes it, so that programs and clients do not wait for the disk.
+Reply Backups::create(const Request& request) {
+    if (state_ == State::InProgress) return Reply::refuse(ReturnCode::Rejected, "a backup is being written");
+    std::string host;
+    if (auto reply = folderIn(request, false, host)) return std::move(*reply);
+    if (writer_.joinable()) writer_.join(); // it has ended
+    state_ = State::InProgress;
+    Reply reply = Reply::done(202);
+    reply.location = progress_.begin("backup");
+    auto content = std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
+    writer_ = std::thread([this, alive = std::weak_ptr(alive_), &controller = controller_, content, host, path = reply.location] {
+        const std::string problem = service::writeBackup(*content, host);
+        controller.post([this, alive, problem, path] {
+            if (alive.expired()) return;
+            state_ = problem.empty() ? State::Ready : State::Failed;
+            progress_.done(path, problem.empty() ? ReturnCode::Success : ReturnCode::Rejected);
+            if (!problem.empty()) fmt::print(stderr, "backup: {}\n", problem);
+        });
+    });
+    return reply;
+}
+
+Reply Backups::check(const Request& request) const {
+    std::string host;
+    if (auto reply = folderIn(request, true, host)) return std::move(*reply);
+    return Reply::of(Document());
+}
+
+Reply Backups::restore(const Request& request) {
+    if (state_ == State::InProgress) return Reply::refuse(ReturnCode::Rejected, "a backup is being written");
+    std::string host;
+    if (auto reply = folderIn(request, true, host)) return std::move(*reply);
+    return replyTo(controller_.restore(host));
+}
+
+void Backups::addTo(Router& router, Subscribables&) {
+    const std::string all = "/ctrl/backup";
+    router.addBoth({Method::Get, all, "backupstate", [this](const Request& r) { return state(r, "ctrl-backup-state"); }});
+    router.getBoth(all, [this](const Request& r) { return state(r, "ctrl-backup-info"); });
+    router.get(Dialect::V2, all + "/state", [this](const Request& r) { return state(r, "ctrl-backup-state"); });
+    addOrder(router, all, "backup", "create", [this](const Request& r) { return create(r); });
+    addOrder(router, all, "restore", "restore", [this](const Request& r) { return restore(r); });
+    addOrder(router, all, "check-restore", "check-restore", [this](const Request& r) { return check(r); });
+}
+
+} // namespace rapidc::rws

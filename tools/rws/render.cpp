@@ -1,0 +1,136 @@
+#include "tools/rws/render.h"
+
+#include "tools/http/url.h"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace rapidc::rws {
+
+namespace {
+
+/// Bytes of the UTF-8 sequence that begins here; 0 when there is none.
+std::size_t sequenceLength(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+    const bool surrogate = first == 0xED && byte(1) >= 0xA0;
+    const bool beyond = first == 0xF4 && byte(1) >= 0x90;
+    const bool noCharacter = first == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE; // U+FFFE, U+FFFF
+    return overlong || surrogate || beyond || noCharacter ? 0 : length;
+}
+
+bool isControl(char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return (code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7F;
+}
+
+std::string anchor(std::string_view href, std::string_view rel) {
+    return fmt::format(R"(<a href="{}" rel="{}"></a>)", xmlText(href), xmlText(rel));
+}
+
+std::string listItem(const Entry& entry) {
+    std::string text =
+        fmt::format(R"(<li class="{}" title="{}">)", xmlText(entry.type), xmlText(entry.title));
+    if (!entry.self.empty()) text += anchor(entry.self, "self");
+    for (const auto& [rel, href] : entry.links)
+        text += anchor(href, rel);
+    for (const auto& [name, value] : entry.values)
+        text += fmt::format(R"(<span class="{}">{}</span>)", xmlText(name), xmlText(value));
+    if (!entry.nestedName.empty()) {
+        text += "<ul>";
+        for (const Entry& nested : entry.nested)
+            text += listItem(nested);
+        text += "</ul>";
+    }
+    return text + "</li>";
+}
+
+std::string page(std::string_view base, std::string_view body) {
+    return fmt::format(
+        R"(<?xml version="1.0" encoding="UTF-8"?>)"
+        "\n"
+        R"(<html xmlns="http://www.w3.org/1999/xhtml"><head><title>rapidc</title><base href="{}"/></head>)"
+        "<body>{}</body></html>\n",
+        xmlText(base), body);
+}
+
+} // namespace
+
+std::string cleanText(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty()) {
+        const std::size_t length = sequenceLength(text);
+        if (length == 0 || (length == 1 && isControl(text.front())))
+            result += '?';
+        else
+            result += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return result;
+}
+
+std::string xmlText(std::string_view text) {
+    std::string result;
+    for (const char c : cleanText(text)) {
+        switch (c) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        case '\r': result += "&#13;"; break; // a bare one would become a line feed
+        default: result += c;
+        }
+    }
+    return result;
+}
+
+std::string baseFolder(std::string_view path) {
+    const auto isIn = [&](std::string_view root) {
+        return path.substr(0, root.size()) == root &&
+               (path.size() == root.size() || path[root.size()] == '/');
+    };
+    for (const std::string_view root : {"/rw/mastership", "/users", "/uas"})
+        if (isIn(root)) return std::string(root) + "/";
+    if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
+    return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
+}
+
+std::string contentTypeOf(Form form, Dialect dialect) {
+    if (dialect == Dialect::V1) return form == Form::Json ? "application/json" : "application/xhtml+xml";
+    return form == Form::Json ? "application/hal+json;v=2.0" : "application/xhtml+xml;v=2.0";
+}
+
+std::string renderXhtml(const Document& document, const RenderContext& context) {
+    std::string body = R"(<div class="state">)";
+    body += anchor(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self,
+                   "self");
+    for (const auto& [rel, href] : document.links)
+        body += anchor(href, rel);
+    if (!document.next.empty()) body += anchor(document.next, "next");
+    body += "<ul>";
+    for (const Entry& entry : document.entries)
+        body += listItem(entry);
+    return page(context.base + baseFolder(context.path), body + "</ul></div>");
+}
+
+std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context) {
+    return page(
+        context.base + baseFolder(context.path),
+        fmt::format(R"(<div class="status"><span class="code">{}</span><span class="msg">{}</span></div>)",
+                    static_cast<int>(failure.code), xmlText(failure.message)));
+}
+
+std::string renderEvent(const Entry& entry, std::string_view href, std::string_view base) {
+    Entry event = entry;
+    event.self = href;
+    return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
+}
+
+} // namespace rapidc::rws

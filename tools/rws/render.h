@@ -1,0 +1,38 @@
+#pragma once
+// Rendering: replies as XHTML (both dialects, and the events of subscriptions), JSON of RWS 1.0 and HAL JSON of RWS 2.0
+// (serve-contract 18 to 26).
+
+#include "tools/rws/message.h"
+
+#include <string>
+#include <string_view>
+
+namespace rapidc::rws {
+
+enum class Form : uint8_t { Xhtml, Json };
+
+/// What a rendering needs of the request: dialect, base, path.
+struct RenderContext {
+    Dialect dialect = Dialect::V1;
+    std::string base; ///< "http://127.0.0.1:8080"
+    std::string path; ///< of the request, decoded
+};
+
+/// The body of a reply with a document.
+std::string render(const Document& document, Form form, const RenderContext& context);
+/// The body of an error.
+std::string renderFailure(const Failure& failure, Form form, const RenderContext& context);
+/// "application/xhtml+xml;v=2.0"
+std::string contentTypeOf(Form form, Dialect dialect);
+
+/// The folder that relative addresses of a resource count from, with '/' at both ends: "/rw/rapid/".
+std::string baseFolder(std::string_view path);
+/// Text for an element or attribute: markup escaped, bytes that are not UTF-8 and characters that XML cannot hold replaced by '?'.
+std::string xmlText(std::string_view text);
+/// The same replacements, nothing escaped.
+std::string cleanText(std::string_view text);
+
+/// One event of a subscription: a page with one li, whose anchor (rel=self) is `href` (serve-contract 44).
+std::string renderEvent(const Entry& entry, std::string_view href, std::string_view base);
+
+} // namespace rapidc::rws

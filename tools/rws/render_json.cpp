@@ -1,0 +1,106 @@
+#include "tools/rws/render.h"
+
+#include "config/json_text.h"
+#include "tools/http/url.h"
+
+namespace rapidc::rws {
+
+std::string renderXhtml(const Document& document, const RenderContext& context);
+std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context);
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json href(std::string_view text) {
+    return {{"href", cleanText(text)}};
+}
+
+Json objectOf(const Entry& entry) {
+    Json links = Json::object();
+    if (!entry.self.empty()) links["self"] = href(entry.self);
+    for (const auto& [rel, target] : entry.links)
+        links[rel] = href(target);
+    Json object = Json::object();
+    if (!links.empty()) object["_links"] = std::move(links);
+    object["_type"] = entry.type;
+    object["_title"] = cleanText(entry.title);
+    for (const auto& [name, value] : entry.values)
+        object[name] = cleanText(value);
+    if (!entry.nestedName.empty()) {
+        Json list = Json::array();
+        for (const Entry& nested : entry.nested)
+            list.push_back(objectOf(nested));
+        object[entry.nestedName] = std::move(list);
+    }
+    return object;
+}
+
+/// RWS 2.0 gives addresses as in XHTML, with "&amp;".
+std::string withEscapedAmpersand(std::string_view text) {
+    std::string result;
+    for (const char c : text)
+        result += c == '&' ? std::string("&amp;") : std::string(1, c);
+    return result;
+}
+
+Json linksOf(const Document& document, const RenderContext& context) {
+    Json links = {{"base", href(context.base + baseFolder(context.path))}};
+    links["self"] =
+        href(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self);
+    for (const auto& [rel, target] : document.links)
+        links[rel] = href(target);
+    if (!document.next.empty())
+        links["next"] =
+            href(context.dialect == Dialect::V2 ? withEscapedAmpersand(document.next) : document.next);
+    return links;
+}
+
+std::string renderJson(const Document& document, const RenderContext& context) {
+    Json entries = Json::array();
+    for (const Entry& entry : document.entries)
+        entries.push_back(objectOf(entry));
+    Json json = {{"_links", linksOf(document, context)}};
+    if (context.dialect == Dialect::V1) {
+        json["_embedded"] = {{"_state", std::move(entries)}};
+    } else {
+        json["status"] = {{"code", static_cast<int>(ReturnCode::Success)}};
+        if (document.place == Document::Place::Resources)
+            json["_embedded"] = {{"resources", std::move(entries)}};
+        else
+            json["state"] = std::move(entries);
+    }
+    return rapid::config::textOf(json);
+}
+
+std::string renderJsonFailure(const Failure& failure, const RenderContext& context) {
+    const Json status = {{"code", static_cast<int>(failure.code)}, {"msg", cleanText(failure.message)}};
+    Json json = {{"_links", {{"base", href(context.base + baseFolder(context.path))}}}};
+    if (context.dialect == Dialect::V1)
+        json["_embedded"] = {{"status", status}};
+    else
+        json["status"] = status;
+    return rapid::config::textOf(json);
+}
+
+} // namespace
+
+/// Relative addresses of the next page count from the base; clients do not always look at it.
+static Document resolved(const Document& document, const RenderContext& context) {
+    Document result = document;
+    if (!result.next.empty() && result.next.front() == '?') result.next = context.path + result.next;
+    if (!result.next.empty() && result.next.front() != '/')
+        result.next = baseFolder(context.path) + result.next;
+    return result;
+}
+
+std::string render(const Document& document, Form form, const RenderContext& context) {
+    const Document whole = resolved(document, context);
+    return form == Form::Json ? renderJson(whole, context) : renderXhtml(whole, context);
+}
+
+std::string renderFailure(const Failure& failure, Form form, const RenderContext& context) {
+    return form == Form::Json ? renderJsonFailure(failure, context) : renderXhtmlFailure(failure, context);
+}
+
+} // namespace rapidc::rws

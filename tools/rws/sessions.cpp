@@ -1,0 +1,67 @@
+#include "tools/rws/sessions.h"
+
+#include "tools/http/crypto.h"
+
+#include <vector>
+
+namespace rapidc::rws {
+
+Sessions::LoggedOn* Sessions::logOn(Dialect dialect, const std::string& user, const std::string& address,
+                                    uint64_t connection) {
+    if (sessions_.size() >= kMost) expire();
+    if (sessions_.size() >= kMost) return nullptr;
+    const uint64_t number = ++last_;
+    LoggedOn& session = sessions_[number];
+    session.session = std::make_shared<const Session>(Session{number, dialect, user, address});
+    session.cookie = http::randomHex(16);
+    session.abbcx = http::randomHex(8);
+    session.used = session.second = Clock::now();
+    cookies_[session.cookie] = number;
+    connections_[connection] = number;
+    return &session;
+}
+
+Sessions::LoggedOn* Sessions::numbered(uint64_t number) {
+    const auto found = sessions_.find(number);
+    return found == sessions_.end() ? nullptr : &found->second;
+}
+
+Sessions::LoggedOn* Sessions::find(std::string_view cookie, Dialect dialect) {
+    const auto found = cookies_.find(cookie);
+    LoggedOn* session = found == cookies_.end() ? nullptr : numbered(found->second);
+    return session != nullptr && session->session->dialect == dialect ? session : nullptr;
+}
+
+Sessions::LoggedOn* Sessions::ofConnection(uint64_t connection, std::string_view user) {
+    const auto found = connections_.find(connection);
+    LoggedOn* session = found == connections_.end() ? nullptr : numbered(found->second);
+    return session != nullptr && session->session->user == user ? session : nullptr;
+}
+
+bool Sessions::countRequest(LoggedOn& session) {
+    session.used = Clock::now();
+    if (session.used - session.second >= std::chrono::seconds(1)) {
+        session.second = session.used;
+        session.requests = 0;
+    }
+    return ++session.requests <= kMostPerSecond;
+}
+
+void Sessions::end(uint64_t number) {
+    const auto found = sessions_.find(number);
+    if (found == sessions_.end()) return;
+    cookies_.erase(found->second.cookie);
+    sessions_.erase(found);
+    ended_(number);
+}
+
+void Sessions::expire() {
+    const auto now = Clock::now();
+    std::vector<uint64_t> idle;
+    for (const auto& [number, session] : sessions_)
+        if (session.sockets == 0 && now - session.used > kIdleTime) idle.push_back(number);
+    for (const uint64_t number : idle)
+        end(number);
+}
+
+} // namespace rapidc::rws

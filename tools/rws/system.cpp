@@ -1,0 +1,259 @@
+#include "tools/rws/system.h"
+
+#include "config/letter_case.h"
+#include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
+#include "tools/service/event_journal.h"
+#include "tools/service/system_facts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+
+namespace rapidc::rws {
+
+namespace {
+
+using rapid::config::sameName;
+
+constexpr const char* kTime = "/ctrl/virtualtime";
+constexpr double kMostSpeed = 100'000; // per cent of the wall clock's pace
+
+Reply one(const char* type, const char* title, const char* name, std::string value) {
+    Document document;
+    document.add(type, title).value(name, std::move(value));
+    return Reply::of(std::move(document));
+}
+
+} // namespace
+
+System::System(service::VirtualController& controller, const service::FileVolumes& volumes)
+    : controller_(controller), volumes_(volumes) {
+    service::Observer observer;
+    observer.changed = [this](service::Change change, const rt::Task*) {
+        if (change != service::Change::Generation) return;
+        ++restarts_;
+        rt::Controller& core = controller_.core();
+        core.setCalendarSeconds(core.calendarSeconds() + clockOffset_);
+    };
+    token_ = controller_.observers().add(std::move(observer));
+}
+
+System::~System() {
+    controller_.observers().remove(token_);
+}
+
+// ---- /rw/system ----------------------------------------------------------------------------------------------------
+
+Reply System::system(const Request& request) const {
+    const bool isFirst = request.dialect == Dialect::V1;
+    const service::RobotWareVersion version = service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
+    const service::SystemFacts facts = service::systemFacts(controller_);
+    Document document;
+    Entry& entry = document.add(isFirst ? "sys-system-li" : "sys-system", "system");
+    entry.value("major", fmt::format("{}", version.major)).value("minor", fmt::format("{}", version.minor));
+    entry.value("build", fmt::format("{}", version.build)).value("revision", fmt::format("{}", version.revision));
+    entry.value("title", "RobotWare").value("type", "RobotWare").value("description", "Virtual controller of rapidc");
+    entry.value("name", facts.name).value("rwversion", version.version).value("rwversionname", version.name);
+    entry.value("sysid", facts.id).value("starttm", service::calendarText(facts.startSeconds));
+    if (isFirst) {
+        for (const std::string& option : facts.options)
+            document.add("sys-option-li", option).value("option", option);
+        return Reply::of(std::move(document));
+    }
+    Entry& list = document.add("sys-options-li", "options");
+    list.self = "/rw/system/options";
+    list.nestedName = "options";
+    for (const std::string& option : facts.options) {
+        Entry nested;
+        nested.type = "sys-options";
+        nested.title = option;
+        nested.value("option", option);
+        list.nested.push_back(std::move(nested));
+    }
+    return Reply::of(std::move(document));
+}
+
+Reply System::options(const Request&) const {
+    Document document;
+    for (const std::string& option : service::systemFacts(controller_).options)
+        document.add("sys-option-li", option).value("option", option);
+    return Reply::of(std::move(document));
+}
+
+Reply System::products(const Request& request) const {
+    const bool isFirst = request.dialect == Dialect::V1;
+    const service::RobotWareVersion version = service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
+    Document document;
+    Entry& entry = document.add("sys-product-li", "RobotWare");
+    entry.value("product", "RobotWare").value("version-name", version.name).value("version", version.version);
+    return Reply::of(std::move(document));
+}
+
+Reply System::returnCode(const Request& request) const {
+    const auto number = numberIn(request.query.text("code"));
+    if (!number || std::fabs(*number) > 4e9 || *number != std::floor(*number))
+        return badParameter("code", "the number of a return code");
+    auto value = static_cast<int64_t>(*number);
+    if (value > INT32_MAX) value -= int64_t{1} << 32; // some clients have it without its sign
+    const auto found = describe(static_cast<int>(value));
+    if (!found) return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no return code {}", request.query.text("code")));
+    Document document;
+    Entry& entry = document.add("err-desc", fmt::format("{}", value));
+    entry.value("name", found->symbol).value("code", fmt::format("{}", value));
+    entry.value("severity", found->severity).value("description", found->text);
+    return Reply::of(std::move(document));
+}
+
+void System::addSystem(Router& router) {
+    router.getBoth("/rw/system", [this](const Request& r) { return system(r); });
+    router.getBoth("/rw/system/options", [this](const Request& r) { return options(r); });
+    router.getBoth("/rw/system/products", [this](const Request& r) { return products(r); });
+    router.getBoth("/rw/system/license", [](const Request&) { return one("sys-license-info", "license", "license", "virtual controller"); });
+    router.getBoth("/rw/system/robottype", [this](const Request&) {
+        return one("sys-robottype", "robottype", "robot-type", service::systemFacts(controller_).robotType);
+    });
+    router.getBoth("/rw/retcode", [this](const Request& r) { return returnCode(r); });
+}
+
+// ---- /ctrl ---------------------------------------------------------------------------------------------------------
+
+Reply System::identity(const Request&, Document::Place place) const {
+    const service::SystemFacts facts = service::systemFacts(controller_);
+    Document document;
+    document.place = place;
+    Entry& entry = document.add("ctrl-identity-info", "identity");
+    entry.self = "/ctrl/identity";
+    entry.value("ctrl-name", facts.name).value("ctrl-id", facts.name).value("ctrl-type", "Virtual Controller");
+    entry.value("ctrl-mac", "00-00-00-00-00-00").value("ctrl-level", "Virtual");
+    return Reply::of(std::move(document));
+}
+
+Reply System::clock(const Request&) const {
+    return one("ctrl-clock-info", "clock", "datetime", service::calendarText(controller_.core().calendarSeconds()));
+}
+
+Reply System::setClock(const Request& request) {
+    int64_t parts[6] = {};
+    struct Part {
+        const char* field;
+        int64_t least, most;
+    };
+    constexpr Part kParts[6] = {{"sys-clock-year", 1970, 2100}, {"sys-clock-month", 1, 12}, {"sys-clock-day", 1, 31},
+                                {"sys-clock-hour", 0, 23},      {"sys-clock-min", 0, 59},   {"sys-clock-sec", 0, 59}};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const auto value = readWhole(fieldOf(request, kParts[i].field), kParts[i].least, kParts[i].most);
+        if (!value) return badParameter(kParts[i].field, fmt::format("{} to {}", kParts[i].least, kParts[i].most));
+        parts[i] = *value;
+    }
+    std::tm time{};
+    time.tm_year = static_cast<int>(parts[0] - 1900);
+    time.tm_mon = static_cast<int>(parts[1] - 1);
+    time.tm_mday = static_cast<int>(parts[2]);
+    time.tm_hour = static_cast<int>(parts[3]);
+    time.tm_min = static_cast<int>(parts[4]);
+    time.tm_sec = static_cast<int>(parts[5]);
+    const auto seconds = static_cast<int64_t>(::timegm(&time));
+    if (time.tm_mday != parts[2]) return badParameter("sys-clock-day", "a day that the month has");
+    rt::Controller& core = controller_.core();
+    clockOffset_ += seconds - core.calendarSeconds();
+    core.setCalendarSeconds(seconds);
+    return Reply::done();
+}
+
+Reply System::restart(const Request& request) {
+    const std::string mode = fieldOf(request, "restart-mode");
+    for (const char* warm : {"", "restart", "wstart"})
+        if (sameName(mode, warm)) return replyTo(controller_.restart(service::RestartMode::Warm));
+    for (const char* cold : {"istart", "pstart", "bstart", "xstart"})
+        if (sameName(mode, cold)) return replyTo(controller_.restart(service::RestartMode::Cold));
+    return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
+}
+
+/// `_value`: a path behind /fileservice/.
+Reply System::environment(const Request& request) const {
+    const std::string name = request.parameter("name");
+    if (!name.starts_with('$') || !volumes_.has(name))
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no resource or environment variable {}", name));
+    const std::string title = "$" + rapid::config::upperCase(name.substr(1));
+    return one("ctrl-env", title.c_str(), "_value", title);
+}
+
+void System::addControl(Router& router) {
+    router.getBoth("/ctrl", [this](const Request& r) { return identity(r, Document::Place::Resources); });
+    router.getBoth("/ctrl/identity", [this](const Request& r) { return identity(r, Document::Place::State); });
+    router.getBoth("/ctrl/clock", [this](const Request& r) { return clock(r); });
+    router.addBoth({Method::Put, "/ctrl/clock", {}, [this](const Request& r) { return setClock(r); }});
+    router.getBoth("/ctrl/clock/timezone", [](const Request&) { return one("ctrl-timezone", "timezone", "timezone", "UTC"); });
+    router.getBoth("/ctrl/{name}", [this](const Request& r) { return environment(r); });
+    router.getBoth("/ctrl/options", [](const Request&) { return Reply::of(Document()); });
+    router.post(Dialect::V2, "/ctrl/restart", [this](const Request& r) { return restart(r); });
+    router.action("/ctrl", "restart", [this](const Request& r) { return restart(r); });
+    router.get(Dialect::V2, "/ctrl/restart/restartcount",
+               [this](const Request&) { return one("ctrl-restart-count", "restartcount", "restart-count", fmt::format("{}", restarts_)); });
+}
+
+// ---- Virtual time --------------------------------------------------------------------------------------------------
+
+Reply System::setTimeState(const Request& request) {
+    const std::string state = request.form.text("vtcurrstate");
+    const bool runs = sameName(state, "running");
+    if (!runs && !sameName(state, "stopped")) return badParameter("vtcurrstate", "running or stopped");
+    controller_.setTimeRunning(runs);
+    return Reply::done();
+}
+
+Reply System::setTimeSpeed(const Request& request) {
+    const auto speed = numberIn(fieldOf(request, "vtcurrspeed"));
+    if (!speed || *speed < 0 || *speed > kMostSpeed) return badParameter("vtcurrspeed", "per cent of the wall clock's pace; 0: as fast as possible");
+    controller_.setPace(static_cast<int>(std::lround(*speed)));
+    return Reply::done();
+}
+
+void System::addVirtualTime(Router& router) {
+    const std::string base = kTime;
+    router.getBoth(base, [](const Request&) {
+        return folder({{"ctrl-vttime-li", "/ctrl/virtualtime/vttime"},
+                       {"ctrl-vtstate-li", "/ctrl/virtualtime/vtstate"},
+                       {"ctrl-vtspeed-li", "/ctrl/virtualtime/vtspeed"},
+                       {"ctrl-vttimeslice-li", "/ctrl/virtualtime/vttimeslice"}});
+    });
+    router.getBoth(base + "/vttime", [this](const Request&) {
+        const int64_t milliseconds = controller_.core().scheduler().now() / rt::kMillisecond;
+        return one("ctrl-vttime", "vttime", "vtcounter", fmt::format("{}", milliseconds));
+    });
+    router.getBoth(base + "/vtstate", [this](const Request&) {
+        return one("ctrl-vtstate", "vtstate", "vtcurrstate", controller_.isTimeRunning() ? "running" : "stopped");
+    });
+    router.getBoth(base + "/vtspeed", [this](const Request&) {
+        return one("ctrl-vtspeed", "vtspeed", "vtcurrspeed", fmt::format("{}", controller_.pace()));
+    });
+    router.getBoth(base + "/vttimeslice", [](const Request&) { return one("ctrl-vttimeslice", "vttimeslice", "vttimeslice", "4"); });
+    const auto state = [this](bool running) {
+        return [this, running](const Request&) {
+            controller_.setTimeRunning(running);
+            return Reply::done();
+        };
+    };
+    router.action(base + "/vtstate", "run", state(true));
+    router.action(base + "/vtstate", "pause", state(false));
+    router.post(Dialect::V2, base + "/vtstate", [this](const Request& r) { return setTimeState(r); });
+    router.action(base + "/vtspeed", "set", [this](const Request& r) { return setTimeSpeed(r); });
+    router.post(Dialect::V2, base + "/vtspeed", [this](const Request& r) { return setTimeSpeed(r); });
+    const Handler slice = [](const Request& request) { // the cycle of motion is what it is
+        const auto value = numberIn(fieldOf(request, "vttimeslice"));
+        if (!value || *value <= 0) return badParameter("vttimeslice", "milliseconds");
+        return *value == 4 ? Reply::done() : Reply::refuse(ReturnCode::Rejected, "the time slice is 4 ms");
+    };
+    router.action(base + "/vttimeslice", "set", slice);
+    router.post(Dialect::V2, base + "/vttimeslice", slice);
+}
+
+void System::addTo(Router& router, Subscribables&) {
+    addSystem(router);
+    addControl(router);
+    addVirtualTime(router);
+}
+
+} // namespace rapidc::rws
