@@ -24,15 +24,21 @@ using Method = std::function<Json(Client& client, const Json& params)>;
 
 class MethodTable {
   public:
-    void add(const char* name, Method method) { methods_[name] = std::move(method); }
+    struct Entry {
+        Method method;
+        bool isOnDisk = false; ///< executed by a worker thread
+    };
+    void add(const char* name, Method method) { methods_[name] = {std::move(method), false}; }
+    /// It waits for the disk: it runs on another thread, and must not touch the controller.
+    void addOnDisk(const char* name, Method method) { methods_[name] = {std::move(method), true}; }
     /// Null when there is none.
-    const Method* find(const std::string& name) const {
+    const Entry* find(const std::string& name) const {
         const auto found = methods_.find(name);
         return found == methods_.end() ? nullptr : &found->second;
     }
 
   private:
-    std::map<std::string, Method> methods_;
+    std::map<std::string, Entry> methods_;
 };
 
 /// What the methods work with; all of it outlives them.
