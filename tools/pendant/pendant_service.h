@@ -1,7 +1,7 @@
 #pragma once
 // PendantService: the web page of a controller and its WebSocket, for the HTTP server.
 //
-//     pendant::PendantService pendant(controller, journal, manual, {.files = pendant::fallbackPage(), .password = password, .address = address});
+//     pendant::PendantService pendant(controller, journal, manual, {.password = password, .address = address});
 //     uint16_t port = 0;
 //     server.listen({.address = address, .port = wanted, .service = &pendant}, port);
 //     pendant.setPort(port);
@@ -24,7 +24,7 @@
 namespace rapidc::pendant {
 
 struct PendantSettings {
-    PageFiles files = fallbackPage();
+    PageFiles files = builtPage();
     std::string password;              ///< of pages on other computers
     std::string address = "127.0.0.1"; ///< of the network interface
 };
