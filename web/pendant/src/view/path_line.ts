@@ -12,6 +12,8 @@ export class PathLine {
     private readonly colours: BufferAttribute;
     private next = 0;
     private count = 0;
+    /** points came while the line was hidden: all of it is uploaded next time */
+    private stale = false;
     private readonly last = [NaN, NaN, NaN];
     private readonly shade = new Color();
 
@@ -51,12 +53,14 @@ export class PathLine {
         this.last[0] = x;
         this.last[1] = y;
         this.last[2] = z;
+        if (!this.line.visible) this.stale = true;
         this.shade.lerpColors(this.slow, this.fast, Math.min(1, Math.max(0, share)));
         for (const at of [this.next, this.next + this.capacity]) {
             this.positions.setXYZ(at, x * metres, y * metres, z * metres);
             this.colours.setXYZ(at, this.shade.r, this.shade.g, this.shade.b);
             for (const attribute of [this.positions, this.colours]) {
-                attribute.addUpdateRange(at * 3, 3);
+                if (this.stale) attribute.clearUpdateRanges();
+                else attribute.addUpdateRange(at * 3, 3);
                 attribute.needsUpdate = true;
             }
         }
@@ -66,10 +70,9 @@ export class PathLine {
         this.line.geometry.setDrawRange(first, this.count);
     }
 
-    /** After a frame: what has been uploaded need not be uploaded again. */
-    uploaded(): void {
-        this.positions.clearUpdateRanges();
-        this.colours.clearUpdateRanges();
+    /** After a frame. */
+    drawn(): void {
+        if (this.line.visible) this.stale = false;
     }
 
     dispose(): void {

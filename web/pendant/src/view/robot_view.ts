@@ -36,7 +36,7 @@ export class RobotView {
 
     constructor(private readonly stage: Stage, private readonly model: Model) {
         stage.content.add(this.zones);
-        stage.onDrawn = () => this.robots.forEach((robot) => robot.path.uploaded());
+        stage.onDrawn = () => this.robots.forEach((robot) => robot.path.drawn());
     }
 
     build(state: State): void {
