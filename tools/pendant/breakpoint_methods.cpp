@@ -7,7 +7,7 @@
 #include "tools/pendant/hub.h"
 #include "tools/pendant/support.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace rapidc::pendant {
 
@@ -114,11 +114,12 @@ class BreakpointArea final : public Area {
             return all || (sameName(mark.task, task) && sameName(mark.module, module) &&
                            (mark.line == line || lineOf(mark) == line));
         };
-        const auto first = std::stable_partition(marks_.begin(), marks_.end(), [&](const Mark& mark) { return !matches(mark); });
-        if (first == marks_.end() && !all) notFound("There is no breakpoint in that line");
-        for (auto mark = first; mark != marks_.end(); ++mark)
-            debugger().breakpoints().remove(mark->id);
-        marks_.erase(first, marks_.end());
+        const std::size_t count = std::erase_if(marks_, [&](const Mark& mark) {
+            const bool goes = matches(mark);
+            if (goes) debugger().breakpoints().remove(mark.id);
+            return goes;
+        });
+        if (count == 0 && !all) notFound("There is no breakpoint in that line");
         isChanged_ = true;
         hub_.wake();
     }

@@ -4,13 +4,14 @@
 #include "config/json_text.h"
 #include "config/letter_case.h"
 #include "config/read_file.h"
+#include "frontend/project/backup.h"
 #include "frontend/project/program_file.h"
-#include "runtime/host/system_orders.h"
 #include "tools/pendant/areas.h"
 #include "tools/pendant/hub.h"
 #include "tools/pendant/support.h"
 #include "tools/rws/module_text.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/service/backup_writer.h"
 #include "tools/service/file_volumes.h"
 
 #include <filesystem>
@@ -47,32 +48,33 @@ bool isFileName(const std::string& name) {
 
 class FileArea final : public Area {
   public:
-    explicit FileArea(const Context& context) : controller_(context.controller) {
-        for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"})
-            if (const std::string folder = controller_.folderOf(volume); !folder.empty())
-                (void)volumes_.add(volume, folder);
-    }
+    explicit FileArea(const Context& context)
+        : controller_(context.controller), configuration_(context.configuration), volumes_(context.volumes) {}
 
     void addTo(MethodTable& methods) override {
-        methods.addOnDisk("files.list", [this](Client&, const Json& params) { return list(params); });
+        methods.addOnDisk("files.list", [this](Client&, const Json& params) {
+            return [this, folder = textOr(params, "folder", "")] { return list(folder); };
+        });
         methods.add("program.save", [this](Client&, const Json& params) { return saveProgram(params); });
         methods.add("program.load", [this](Client&, const Json& params) { return loadProgram(params); });
-        methods.add("backup.create", [this](Client&, const Json& params) { return backup(params); });
+        methods.addOnDisk("backup.create", [this](Client&, const Json& params) { return backup(params); });
+        methods.add("backup.restore", [this](Client&, const Json& params) { return restore(params); });
     }
 
   private:
-    Json list(const Json& params) const;
+    Json list(const std::string& folder) const;
     Json saveProgram(const Json& params);
     Json loadProgram(const Json& params);
-    Json backup(const Json& params);
+    DiskWork backup(const Json& params);
+    Json restore(const Json& params);
 
     service::VirtualController& controller_;
-    service::FileVolumes volumes_;
+    const service::ConfigurationStore& configuration_;
+    const service::FileVolumes& volumes_;
 };
 
 /// On a worker thread.
-Json FileArea::list(const Json& params) const {
-    const std::string folder = textOr(params, "folder", "");
+Json FileArea::list(const std::string& folder) const {
     Json entries = Json::array();
     if (folder.empty()) {
         for (const std::string& name : volumes_.names())
@@ -139,12 +141,31 @@ Json FileArea::loadProgram(const Json& params) {
     return {};
 }
 
-Json FileArea::backup(const Json& params) {
+/// The content is taken now; a worker writes it, so that programs do not wait for the disk.
+DiskWork FileArea::backup(const Json& params) {
     const std::string name = textOf(params, "name");
     if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
-    const std::string path = "BACKUP:/" + name;
-    refuseUnless(rt::systemOrders(controller_.core()).backup(path));
-    return {{"path", path}};
+    std::string host;
+    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone()) fail(found);
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(host, error)))
+        throw RequestError{code::kRefused, fmt::format("BACKUP:/{} exists already", name), "Choose another name"};
+    auto content = std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
+    return [content, host, name] {
+        if (const std::string problem = service::writeBackup(*content, host); !problem.empty())
+            throw RequestError{code::kFailed, fmt::format("The backup was not written: {}", problem)};
+        return Json{{"path", "BACKUP:/" + name}};
+    };
+}
+
+Json FileArea::restore(const Json& params) {
+    const std::string name = textOf(params, "name");
+    std::string host;
+    if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
+    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone()) fail(found);
+    if (!rapid::project::isBackup(host)) notFound(fmt::format("BACKUP:/{} is not a backup", name));
+    refuseUnless(controller_.restore(host));
+    return {};
 }
 
 } // namespace

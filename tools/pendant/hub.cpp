@@ -29,9 +29,8 @@ template <class Action> bool answering(Client& client, const Json& id, const Act
 
 } // namespace
 
-Hub::Hub(service::VirtualController& controller, service::EventJournal& journal, service::ManualMotion& manual)
-    : controller_(controller) {
-    const Context context{controller, journal, manual, *this};
+Hub::Hub(const Shared& shared) : controller_(shared.controller) {
+    const Context context{shared, *this};
     for (const auto make : {makePanelArea, makeExecutionArea, makeBreakpointArea, makeModuleArea, makeFileArea,
                             makeSignalArea, makeDataArea, makeDialogArea, makeEventArea, makeUnitArea,
                             makeMotionArea, makeZoneArea, makeJogArea})
@@ -72,18 +71,25 @@ void Hub::handle(const std::shared_ptr<Client>& client, const std::shared_ptr<co
         entry = &methodFor(*client, method->get<std::string>());
     });
     if (!isKnown) return client->endRequest();
-    const auto execute = [client, request, entry] {
-        answering(*client, request->at("id"), [&] {
-            const auto params = request->find("params");
-            const bool hasParams = params != request->end() && params->is_object();
-            Json result = entry->method(*client, hasParams ? *params : Json::object());
-            client->answer(request->at("id"), result.is_null() ? Json::object() : result);
-        });
+    const auto params = request->find("params");
+    const bool hasParams = params != request->end() && params->is_object();
+    const Json given = hasParams ? *params : Json::object();
+    const auto send = [client, request](const Json& result) {
+        client->answer(request->at("id"), result.is_null() ? Json::object() : result);
+    };
+    DiskWork work;
+    answering(*client, id, [&] {
+        if (entry->method)
+            send(entry->method(*client, given));
+        else
+            work = entry->diskMethod(*client, given);
+    });
+    const auto finish = [client, request, send, work] {
+        answering(*client, request->at("id"), [&] { send(work()); });
         client->endRequest();
     };
-    if (!entry->isOnDisk) return execute();
-    if (workers_.post(execute)) return;
-    client->refuse(id, {code::kBusy, "Too much waits for the disk", "Send it later"});
+    if (work && workers_.post(finish)) return;
+    if (work) client->refuse(id, {code::kBusy, "Too much waits for the disk", "Send it later"});
     client->endRequest();
 }
 

@@ -16,8 +16,7 @@ namespace rapidc::pendant {
 
 class Hub {
   public:
-    /// The controller has been opened, and outlives the hub.
-    Hub(service::VirtualController& controller, service::EventJournal& journal, service::ManualMotion& manual);
+    explicit Hub(const Shared& shared);
     ~Hub();
     Hub(const Hub&) = delete;
     Hub& operator=(const Hub&) = delete;

@@ -87,9 +87,8 @@ class PendantService::Socket final : public http::SocketListener {
     std::shared_ptr<Client> client_;
 };
 
-PendantService::PendantService(service::VirtualController& controller, service::EventJournal& journal,
-                               service::ManualMotion& manual, PendantSettings settings)
-    : controller_(controller), settings_(std::move(settings)), hub_(controller, journal, manual) {
+PendantService::PendantService(const Shared& shared, PendantSettings settings)
+    : controller_(shared.controller), settings_(std::move(settings)), hub_(shared) {
     hub_.setPasswordCheck(
         [this](const Client& client, const std::string& password) { return checkPassword(client, password); });
 }

@@ -1,7 +1,8 @@
 #pragma once
 // PendantService: the web page of a controller and its WebSocket, for the HTTP server.
 //
-//     pendant::PendantService pendant(controller, journal, manual, {.password = password, .address = address});
+//     pendant::PendantService pendant({controller, journal, manual, configuration, volumes},
+//                                     {.password = password, .address = address});
 //     uint16_t port = 0;
 //     server.listen({.address = address, .port = wanted, .service = &pendant}, port);
 //     pendant.setPort(port);
@@ -33,8 +34,7 @@ class PendantService final : public http::Service {
   public:
     static constexpr std::chrono::milliseconds kTick{33};
 
-    PendantService(service::VirtualController& controller, service::EventJournal& journal, service::ManualMotion& manual,
-                   PendantSettings settings);
+    PendantService(const Shared& shared, PendantSettings settings);
     ~PendantService() override;
 
     /// Before the server starts: the port that was taken.

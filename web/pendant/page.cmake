@@ -1,4 +1,4 @@
-# pendant_page: the web page of `rapidc serve` as a library with its compressed files (tools/pendant/page_files.h).
+# pendant_page: the web page of `rapidc serve` as a source of rapidc_pendant with its compressed files (tools/pendant/page_files.h).
 find_program(NODE_PROGRAM node)
 find_program(NPM_PROGRAM npm)
 set(pendant_source ${CMAKE_SOURCE_DIR}/web/pendant)
@@ -13,6 +13,6 @@ add_custom_command(OUTPUT ${pendant_output}
   DEPENDS ${pendant_files}
   COMMENT "Bundling the web page"
   VERBATIM)
-add_library(pendant_page STATIC ${pendant_output})
-target_include_directories(pendant_page PRIVATE ${CMAKE_SOURCE_DIR})
-target_compile_options(pendant_page PRIVATE -Wno-overlength-strings)
+add_custom_target(pendant_page DEPENDS ${pendant_output})
+set_source_files_properties(${pendant_output} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings SKIP_PRECOMPILE_HEADERS ON)
+target_sources(rapidc_pendant PRIVATE ${pendant_output})

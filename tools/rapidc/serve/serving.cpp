@@ -12,7 +12,9 @@ namespace rapidc::serve {
 Serving::Serving(const ServeSettings& settings, service::VirtualController& controller)
     : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
       subscriptions_(subscribables_,
-                     [this](std::function<void()> work) { controller_.post(std::move(work)); }) {
+                     [this](std::function<void()> work) { controller_.post(std::move(work)); }),
+      pendant_({controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
+               {.password = settings.password, .address = settings.address}) {
     rws::addRoots(router_);
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
@@ -59,12 +61,16 @@ std::string Serving::open() {
                           .tls = identity,
                           .service = &door_->service(rws::Dialect::V2)},
                          httpsPort_);
+    if (problem.empty())
+        problem = listen("--web-port", {.address = address, .port = settings_.webPort, .service = &pendant_}, webPort_);
+    pendant_.setPort(webPort_);
     return problem;
 }
 
 void Serving::start() {
     server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
     server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
+    server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
     server_.start();
     const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
     fmt::print("{{\"http\":\"http://{0}:{1}\",\"https\":\"https://{0}:{2}\",\"web\":\"http://{0}:{3}\"}}\n",
