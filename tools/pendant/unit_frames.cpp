@@ -43,6 +43,7 @@ std::vector<NamedFrame> framesOf(service::VirtualController& controller, const r
     const rt::ProgramTables& tables = controller.core().tables();
     for (const rt::GlobalDesc* global : tables.globals()) {
         if (!sameName(global->type->baseName, type) || !tables.isDeclaredIn(*global, static_cast<int32_t>(task.index()))) continue;
+        if ((global->flags & rt::kDataPredefined) != 0) continue;
         const rt::DebugVariable variable = rt::dataOf(*global);
         if (variable.rank > 0 || variable.data == nullptr || variable.isConstant) continue;
         NamedFrame frame = frameOf(*static_cast<const Data*>(variable.data));
