@@ -1,9 +1,6 @@
 """The web page's port: files, security, and the WebSocket protocol of docs/pendant.md. "N" = line N of the serve contract."""
 
-import json
-import os
-import threading
-import time
+import contextlib
 
 from pendant_client import Pendant, PendantError
 from serve_testing import ServeCase, main
@@ -140,7 +137,6 @@ class Files(PendantCase):
     def test_methods(self):
         for method in ("POST", "PUT", "DELETE", "OPTIONS"):
             self.assertEqual(self.get(method=method, headers="Content-Length: 0\r\n").status, 405, method)
-        self.assertEqual(self.get(method="HEAD").status, 200)
 
 
 class Messages(PendantCase):
@@ -148,7 +144,10 @@ class Messages(PendantCase):
 
     def raw_answer(self, text):
         self.page.socket.send_frame(1, text)
-        return self.page.take()
+        while True:
+            message = self.page.take()
+            if "event" not in message:
+                return message
 
     def test_malformed(self):
         for text in ("", "{", "[]", "1", '"x"', '{"id":-1,"method":"state"}', '{"method":"state"}', '{"id":1.5,"method":"state"}',
@@ -187,8 +186,12 @@ class Messages(PendantCase):
         self.assertEqual(self.page.socket.close_code, 1002)
 
     def test_too_large_message_closes(self):
-        self.page.socket.send_frame(1, "x" * (1024 * 1024 + 1))
-        self.assertIsNone(self.page.take())
+        with contextlib.suppress(ConnectionError):  # it may end before all has been sent
+            self.page.socket.send_frame(1, "x" * (1024 * 1024 + 1))
+        with contextlib.suppress(ConnectionError):
+            while self.page.take() is not None:
+                pass
+        self.assertEqual(self.connect().status, 101)
 
     def test_many_requests(self):  # Messages: busy
         numbers = [self.page.send("state") for _ in range(500)]
