@@ -92,9 +92,14 @@ std::string xmlText(std::string_view text) {
 }
 
 std::string baseFolder(std::string_view path) {
-    for (const std::string_view folder : {"/rw/rapid/", "/rw/mastership/", "/rw/"})
-        if (path.substr(0, folder.size()) == folder) return std::string(folder);
-    return "/";
+    const auto isIn = [&](std::string_view root) {
+        return path.substr(0, root.size()) == root &&
+               (path.size() == root.size() || path[root.size()] == '/');
+    };
+    for (const std::string_view root : {"/rw/mastership", "/users", "/uas"})
+        if (isIn(root)) return std::string(root) + "/";
+    if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
+    return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
 }
 
 std::string contentTypeOf(Form form, Dialect dialect) {
