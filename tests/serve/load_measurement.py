@@ -28,7 +28,11 @@ MODULE = """MODULE MainModule
   ENDPROC
 ENDMODULE
 """
-GROUPS = 32  # group signals of 32 bits: a change of one changes what a group of clients reads
+SIGNALS = 1000
+EIO = "EIO:CFG_1.0:6:0::\n#\nEIO_SIGNAL:\n" + "".join(
+    f'      -Name "s{i}" -SignalType "AO" -Access "All" -MaxLog 1000000 -MaxPhys 1000000\n' for i in range(SIGNALS))
+CHANGES = "MODULE MainModule\n  VAR num n := 0;\n  PROC main()\n    WHILE TRUE DO\n      n := n + 1;\n" + "".join(
+    f"      SetAO s{i}, n;\n" for i in range(SIGNALS)) + "      WaitTime 0.01;\n    ENDWHILE\n  ENDPROC\nENDMODULE\n"
 
 
 def memory_of(process):
@@ -96,21 +100,77 @@ def throughput(server, seconds=3):
         client.close()
 
 
-def main():
-    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 20
+def frames_of(data):
+    """The texts in the bytes of a socket (frames of the server are not masked)."""
+    at = 0
+    while at + 2 <= len(data):
+        size, head = data[at + 1] & 127, 2
+        if size == 126:
+            size, head = int.from_bytes(data[at + 2:at + 4], "big"), 4
+        if at + head + size > len(data):
+            return
+        if data[at] & 15 == 1:
+            yield data[at + head:at + head + size]
+        at += head + size
+
+
+def events(server, seconds):
+    """Ten clients subscribe to all signals with middle priority: how many events each gets, and whether they are in order."""
+    clients = [RwsClient(server.addresses["http"], 1) for _ in range(10)]
+    names = [f"/rw/iosystem/signals/s{i};state" for i in range(SIGNALS)]
+    begin = time.monotonic()
+    sockets = [client.open_events(client.subscribe(*names)) for client in clients]
+    print(f"ten subscriptions to {SIGNALS} signals: {time.monotonic() - begin:.2f} s")
+    received = [bytearray(sock.raw.rest) for sock in sockets]
+    end = time.monotonic() + seconds
+
+    def read(number):
+        while time.monotonic() < end:
+            received[number] += sockets[number].raw.socket.recv(1 << 20)
+
+    before, memory, start = seconds_of(server.process), memory_of(server.process), time.monotonic()
+    threads = [threading.Thread(target=read, args=(i,)) for i in range(10)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    needed = time.monotonic() - start
+    used = seconds_of(server.process) - before
+    counts, disorder = [], 0
+    for data in received:
+        last, count = {}, 0
+        for text in frames_of(bytes(data)):
+            name = text.split(b'rel="self"')[0].rsplit(b'href="', 1)[1]
+            value = float(text.split(b'class="lvalue">')[1].split(b"<")[0])
+            disorder += value < last.get(name, 0)
+            last[name] = value
+            count += 1
+        counts.append(count)
+    print(f"events: {sum(counts) / needed:.0f}/s in all, {min(counts)} to {max(counts)} for a client, {disorder} out of order; "
+          f"processor {used / needed:.0%}, memory {memory} -> {memory_of(server.process)} KiB")
+
+
+def serve(module, cfg, run):
     folder = tempfile.mkdtemp()
     try:
-        with open(os.path.join(folder, "MainModule.modx"), "w", encoding="ascii") as file:
-            file.write(MODULE)
+        for name, text in (("MainModule.modx", module), ("EIO.cfg", cfg)):
+            if text:
+                with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+                    file.write(text)
         server = Serve(folder)
         before, begin = seconds_of(server.process), time.monotonic()
         time.sleep(3)
-        print(f"idle: processor {(seconds_of(server.process) - before) / (time.monotonic() - begin):.0%}")
-        requests(server, seconds)
-        throughput(server)
+        print(f"no clients: processor {(seconds_of(server.process) - before) / (time.monotonic() - begin):.0%}")
+        run(server)
         server.stop()
     finally:
         shutil.rmtree(folder)
+
+
+def main():
+    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 20
+    serve(MODULE, None, lambda server: (requests(server, seconds), throughput(server)))
+    serve(CHANGES, EIO, lambda server: events(server, min(seconds, 10)))
 
 
 if __name__ == "__main__":
