@@ -45,6 +45,13 @@ std::string_view pathOf(std::string_view target) {
     return target.substr(0, target.find('?'));
 }
 
+/// Browsers say "gzip, deflate, br"; a weight of 0 is a refusal.
+bool takesGzip(const http::Request& request) {
+    const std::string_view accepted = request.header("Accept-Encoding");
+    const std::size_t at = accepted.find("gzip");
+    return at != std::string_view::npos && !accepted.substr(at).starts_with("gzip;q=0");
+}
+
 } // namespace
 
 /// A socket at /api. It hands requests to the controller's thread.
@@ -150,7 +157,12 @@ void PendantService::handle(http::Request request, http::Respond respond) {
     const auto found = std::find_if(settings_.files.begin(), settings_.files.end(),
                                     [&](const PageFile& file) { return file.path == path; });
     if (found == settings_.files.end()) return respond(plain(404, "There is no such file"));
-    respond(secured(http::Response::text(200, std::string(found->bytes), std::string(found->type))));
+    const bool packed = found->compressed && takesGzip(request);
+    http::Response response =
+        http::Response::text(200, packed ? std::string(found->bytes) : unpacked(*found), std::string(found->type));
+    if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
+    if (found->compressed) response.headers.emplace_back("Vary", "Accept-Encoding");
+    respond(secured(std::move(response)));
 }
 
 http::Response PendantService::refusal(int status, const std::string& reason) {

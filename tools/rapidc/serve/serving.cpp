@@ -14,7 +14,7 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
       subscriptions_(subscribables_,
                      [this](std::function<void()> work) { controller_.post(std::move(work)); }),
       pendant_({controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
-               {.password = settings.password, .address = settings.address}) {
+               {.files = pendant::builtPage(), .password = settings.password, .address = settings.address}) {
     rws::addRoots(router_);
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
