@@ -1,5 +1,5 @@
 import type { Connection } from "./connection";
-import type { Dialog, LogEvent, Motion, Notifications, State, Task, Unit, UnitPosition, Zone } from "./protocol";
+import type { Dialog, LogEvent, Motion, Notifications, Signal, State, Task, Unit, UnitPosition, Zone } from "./protocol";
 
 /** What changed in the model. "all": everything is new. */
 interface Changes {
@@ -11,6 +11,8 @@ interface Changes {
     event: LogEvent;
     display: string[];
     dialogs: Dialog[];
+    /** all signals, after "all" */
+    signals: Signal[];
     signal: Notifications["signal"];
     data: Notifications["data"];
     frames: Unit;
@@ -54,6 +56,8 @@ export class Model {
             if (index >= 0) moved.push([index, position.joints, position.external, position.world, position.flange, 0, 0]);
         }
         this.takeMotion({ t: state.time.t, units: moved });
+        const { signals } = await this.connection.request<{ signals: Signal[] }>("signals.subscribe", { all: true });
+        this.emit("signals", signals);
     }
 
     task(name: string): Task | undefined {
