@@ -261,5 +261,147 @@ class Panel(PendantCase):
         self.page.call("time.set", pace=100)
 
 
+class Execution(PendantCase):
+    def test_runs_and_stops(self):
+        self.page.call("run.start")
+        self.page.wait("panel", lambda panel: panel["running"])
+        self.page.wait("task", lambda task: task["state"] == "running")
+        self.assertEqual(self.refused("refused", "run.start").message, "The program is executing already")
+        self.page.call("run.stop")
+        self.page.wait("panel", lambda panel: not panel["running"])
+
+    def test_steps(self):  # manual 1.21: a step over a call executes all of it
+        self.page.call("run.start", mode="stepIn")
+        self.eventually(lambda: (self.task()["pointer"] or {}).get("line") == line_of("MoveAbsJ jHome"))
+        self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
+        self.eventually(lambda: (self.task()["pointer"] or {}).get("line") == line_of("helper count"))
+        self.page.call("run.start", mode="stepIn")
+        self.eventually(lambda: self.task()["pointer"]["routine"] == "helper")
+        self.assertEqual(self.task()["pointer"]["line"], line_of("note := "))
+        self.page.call("run.start", mode="stepOut")
+        self.eventually(lambda: self.task()["state"] != "running" and (self.task()["pointer"] or {}).get("routine") != "helper")
+
+    def test_pointer_to_routine(self):
+        self.page.call("run.pointerToRoutine", {**MAIN, "routine": "ask"})
+        self.page.call("run.start", mode="stepIn")
+        self.eventually(lambda: (self.task()["pointer"] or {}).get("routine") == "ask")
+        self.refused("refused", "run.pointerToRoutine", {**MAIN, "routine": "nothing"})
+        self.refused("not_found", "run.pointerToLine", {"task": "T_ROB1", "module": "None", "line": 1})
+        self.refused("not_found", "run.pointerToRoutine", {"task": "T_X", "routine": "main"})
+
+    def test_breakpoint(self):
+        line = line_of("helper count")
+        self.assertEqual(self.page.call("breakpoints.set", {**MAIN, "line": line}), {**MAIN, "line": line, "verified": True})
+        self.page.wait("breakpoints", lambda data: len(data["breakpoints"]) == 1)
+        self.page.call("breakpoints.set", {**MAIN, "line": line})  # it is one breakpoint
+        self.assertEqual(len(self.page.call("breakpoints.list")["breakpoints"]), 1)
+        self.page.call("run.start")
+        self.page.wait("pointers", lambda data: (data["pointer"] or {}).get("line") == line, seconds=20)
+        self.eventually(lambda: not self.panel()["running"])
+        self.assertEqual(self.task()["pointer"]["line"], line)
+        self.page.call("breakpoints.clear", {**MAIN, "line": line})
+        self.assertEqual(self.page.call("breakpoints.list")["breakpoints"], [])
+        self.refused("not_found", "breakpoints.clear", {**MAIN, "line": line})
+        self.refused("refused", "breakpoints.set", {**MAIN, "line": 100_000})
+
+    def test_motion(self):  # at most 60 a second, and a last one at rest
+        self.page.call("run.start")
+        samples = self.page.gather("motion", 2)
+        self.assertGreater(len(samples), 20)
+        self.assertLessEqual(len(samples), 2 * 63)
+        times = [sample["t"] for sample in samples]
+        self.assertEqual(times, sorted(times))
+        for sample in samples:
+            index, joints, _, tcp, flange, speed, moving = sample["units"][0]
+            self.assertEqual((index, len(joints), len(tcp), len(flange)), (0, 6, 7, 7))
+            self.assertGreaterEqual(speed, 0)
+            self.assertIn(moving, (0, 1))
+        self.page.call("run.stop")
+        last = self.page.wait("motion", lambda data: data["units"][0][6] == 0)["units"][0]
+        position = self.page.call("units.positions")["units"][0]
+        self.assertEqual(position["joints"], last[1])
+
+    def test_planned_path(self):
+        self.page.call("run.start")
+        path = self.eventually(lambda: (lambda found: found if found["moves"] else None)(
+            self.page.call("path.planned", unit="ROB_1")))
+        self.assertEqual(path["moves"][0]["kind"], "joint")
+        self.assertEqual(path["moves"][0]["module"], "MainModule")
+        self.assertGreater(len(path["points"]), 1)
+        self.refused("not_found", "path.planned", unit="ROB_9")
+
+    def test_restart(self):
+        self.page.call("data.write", path="T_ROB1/MainModule/count", value="41")
+        self.page.call("breakpoints.set", {**MAIN, "line": line_of("helper count")})
+        self.page.call("restart", mode="warm")
+        self.page.wait("generation")
+        self.assertEqual(self.value("count"), "41")
+        self.assertTrue(self.page.call("breakpoints.list")["breakpoints"][0]["verified"])
+
+
+class Programs(PendantCase):
+    def test_modules(self):
+        modules = self.page.call("modules.list", TASK)["modules"]
+        self.assertEqual([(m["name"], m["kind"]) for m in modules], [("MainModule", "program")])
+        self.assertEqual(self.page.call("modules.text", MAIN)["text"], MODULE)
+        names = [r["name"] for r in self.page.call("modules.routines", TASK)["routines"]]
+        self.assertEqual(names, ["main", "helper", "ask", "teach"])
+        self.refused("not_found", "modules.text", {"task": "T_ROB1", "module": "Nothing"})
+
+    def test_load_save_unload(self):
+        with open(f"{self.home}/part.modx", "w", encoding="utf-8") as file:
+            file.write("MODULE Part\n  PERS num size := 1;\nENDMODULE\n")
+        self.page.call("modules.load", TASK, path="HOME:/part.modx")
+        self.page.call("data.write", path="T_ROB1/Part/size", value="12")
+        self.assertEqual(self.page.call("modules.save", {"task": "T_ROB1", "module": "Part"})["path"], "HOME:/part.modx")
+        with open(f"{self.home}/part.modx", encoding="utf-8") as file:
+            self.assertIn("size := 12;", file.read())
+        self.refused("refused", "modules.load", TASK, path="HOME:/part.modx")
+        self.page.call("modules.load", TASK, path="HOME:/part.modx", replace=True)
+        self.page.call("modules.unload", {"task": "T_ROB1", "module": "Part"})
+        self.refused("not_found", "modules.text", {"task": "T_ROB1", "module": "Part"})
+
+    def test_paths_stay_inside(self):
+        for path in ("/etc/passwd", "HOME:/../../etc/passwd", "NOVOLUME:/x.mod", "HOME:/..", ""):
+            self.refused("bad_request", "modules.load", TASK, path=path)
+            self.refused("bad_request", "modules.save", MAIN, path=path)
+        self.refused("bad_request", "modules.save", MAIN, path="HOME:/notes.txt")
+
+    def test_text_with_mistakes_changes_nothing(self):
+        error = self.refused("bad_request", "modules.setText", MAIN, text=MODULE.replace("count + 1", "count + nothing"))
+        self.assertIn("nothing", error.message)
+        self.assertEqual(self.page.call("modules.text", MAIN)["text"], MODULE)
+
+    def test_set_text(self):
+        before = self.page.call("modules.text", MAIN)
+        self.page.call("modules.setText", MAIN, text=MODULE.replace("count + 1", "count + 100"), changes=before["changes"])
+        self.page.wait("generation")
+        self.assertIn("count + 100", self.page.call("modules.text", MAIN)["text"])
+        self.refused("refused", "modules.setText", MAIN, text=MODULE, changes=before["changes"])
+        self.page.call("modules.setText", MAIN, text=MODULE)
+        self.page.wait("generation")
+
+    def test_program_and_backup(self):
+        self.assertEqual(self.page.call("program.save", TASK, folder="HOME:/saved", name="line1")["path"], "HOME:/saved/line1.pgf")
+        names = {entry["name"] for entry in self.page.call("files.list", folder="HOME:/saved")["entries"]}
+        self.assertEqual(names, {"line1.pgf", "MainModule.modx"})
+        self.page.call("program.load", TASK, path="HOME:/saved/line1.pgf")
+        self.page.wait("generation")
+        self.assertEqual(self.page.call("backup.create", name="b1")["path"], "BACKUP:/b1")
+        names = {entry["name"] for entry in self.page.call("files.list", folder="BACKUP:/b1")["entries"]}
+        self.assertLessEqual({"BACKINFO", "HOME", "RAPID", "SYSPAR"}, names)
+        self.refused("refused", "backup.create", name="b1")
+        for name in ("../x", "", "a/b", ".hidden"):
+            self.refused("bad_request", "backup.create", name=name)
+        self.refused("not_found", "backup.restore", name="nothing")
+        self.page.call("backup.restore", name="b1")
+        self.page.wait("generation")
+
+    def test_running_program_is_not_changed(self):
+        self.page.call("run.start")
+        self.refused("refused", "modules.setText", MAIN, text=MODULE + "\n")
+        self.refused("refused", "modules.unload", MAIN)
+
+
 if __name__ == "__main__":
     main()
