@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdio>
 #include <exception>
 
 namespace rapidc::pendant {
@@ -149,7 +149,15 @@ void Hub::tick() {
 
 void Hub::flush() {
     for (const auto& area : areas_)
-        area->flush();
+        guarded([&] { area->flush(); });
+}
+
+void Hub::guarded(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "web page: {}\n", error.what());
+    }
 }
 
 } // namespace rapidc::pendant

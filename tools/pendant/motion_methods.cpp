@@ -51,7 +51,7 @@ class MotionArea final : public Area {
     explicit MotionArea(const Context& context)
         : controller_(context.controller), manual_(context.manual), hub_(context.hub) {
         service::Observer observer;
-        observer.motion = [this] { sample(); };
+        observer.motion = [this] { Hub::guarded([this] { sample(); }); };
         observer.changed = [this](service::Change change, const rt::Task*) {
             if (change == service::Change::Generation) begin();
         };

@@ -56,7 +56,7 @@ class ZoneArea final : public Area {
   public:
     explicit ZoneArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
-        observer.motion = [this] { look(); };
+        observer.motion = [this] { Hub::guarded([this] { look(); }); };
         observer_ = controller_.observers().add(std::move(observer));
     }
     ~ZoneArea() override { controller_.observers().remove(observer_); }
