@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace rapidc::rws {
 
@@ -25,8 +26,15 @@ std::string axisText(double value) {
     return motion::isConnected(value) ? shown(value) : "9E+09";
 }
 
+/// Without what rounding leaves of a zero.
+std::string millimetres(double value) {
+    return shown(std::fabs(value) < 1e-9 ? 0 : value);
+}
+
 void addPose(const motion::Pose& pose, Entry& entry) {
-    entry.value("x", shown(pose.pos.x)).value("y", shown(pose.pos.y)).value("z", shown(pose.pos.z));
+    entry.value("x", millimetres(pose.pos.x))
+        .value("y", millimetres(pose.pos.y))
+        .value("z", millimetres(pose.pos.z));
     entry.value("q1", shown(pose.rot.w))
         .value("q2", shown(pose.rot.x))
         .value("q3", shown(pose.rot.y))

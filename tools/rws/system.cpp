@@ -1,6 +1,7 @@
 #include "tools/rws/system.h"
 
 #include "config/letter_case.h"
+#include "tools/http/url.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 #include "tools/service/event_journal.h"
@@ -148,6 +149,13 @@ Reply System::clock(const Request&) const {
 
 Reply System::setClock(const Request& request) {
     int64_t parts[6] = {};
+    const auto form = http::parseFields(request.body); // bodies of PUT are not read as forms
+    const auto textOf = [&](const char* name) {
+        if (form)
+            for (const auto& [field, value] : *form)
+                if (sameName(field, name)) return value;
+        return fieldOf(request, name);
+    };
     struct Part {
         const char* field;
         int64_t least, most;
@@ -156,7 +164,7 @@ Reply System::setClock(const Request& request) {
                                 {"sys-clock-day", 1, 31},       {"sys-clock-hour", 0, 23},
                                 {"sys-clock-min", 0, 59},       {"sys-clock-sec", 0, 59}};
     for (std::size_t i = 0; i < 6; ++i) {
-        const auto value = readWhole(fieldOf(request, kParts[i].field), kParts[i].least, kParts[i].most);
+        const auto value = readWhole(textOf(kParts[i].field), kParts[i].least, kParts[i].most);
         if (!value)
             return badParameter(kParts[i].field, fmt::format("{} to {}", kParts[i].least, kParts[i].most));
         parts[i] = *value;
