@@ -82,6 +82,8 @@ void SystemInputs::configure(const CfgFile& file, std::vector<CfgProblem>& probl
             inputs_.push_back(input);
             // From the scheduler, since a task may have caused the change by a cross connection.
             controller_.io().addListener(input.signal, [this, input](SignalId, double, double value) {
+                const bool isLevel = input.order == Order::LimitSpeed || input.order == Order::SimulationMode;
+                if (!isLevel && controller_.service<SystemOrdersSlot>().valuesAreKept) return;
                 controller_.scheduler().after(0, [this, input, value] { change(input, value != 0); });
             });
         }

@@ -38,6 +38,7 @@ class SystemOrders {
 /// A service of the Controller.
 struct SystemOrdersSlot {
     SystemOrders* host = nullptr; ///< outlives the controller
+    bool valuesAreKept = false;   ///< signals get values that they had before: a change to 1 gives no order
     std::unique_ptr<SystemOrders> run;
 };
 

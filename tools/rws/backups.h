@@ -28,6 +28,8 @@ class Backups {
   private:
     Reply state(const Request& request, const char* type) const;
     Reply create(const Request& request);
+    std::string order(const std::string& folder);
+    void write(const std::string& host, const std::string& progress);
     Reply check(const Request& request) const;
     Reply restore(const Request& request);
     /// The folder on the host that the field `backup` names; a reply when there is none.

@@ -5,7 +5,9 @@
 
 #include "runtime/host/panel_switches.h"
 #include "runtime/host/stop_signals.h"
+#include "runtime/host/system_orders.h"
 #include "tools/program/run_setup.h"
+#include "tools/service/panel_orders.h"
 
 #include <cstdio>
 #include <cstring>
@@ -21,7 +23,8 @@ constexpr rt::Time kMotionPeriod = 4 * rt::kMillisecond;
 
 } // namespace
 
-VirtualController::VirtualController(Settings settings) : settings_(std::move(settings)) {}
+VirtualController::VirtualController(Settings settings)
+    : settings_(std::move(settings)), panelOrders_(std::make_unique<PanelOrders>(*this)) {}
 
 VirtualController::~VirtualController() {
     core_.reset(); // before the code that it executes
@@ -39,6 +42,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
             problems += problem + "\n";
         return nullptr;
     }
+    compilation->keepsPredefined = true;
     auto program = std::make_unique<LoadedProgram>(std::move(compilation));
     std::string error;
     const std::string name = std::filesystem::path(inputs.paths.front()).stem().string();
@@ -95,13 +99,17 @@ rt::ExitStatus VirtualController::makeCore(const Succession& how) {
     core_->panel().setOutput(stderr, stderr); // standard output belongs to the addresses
     program_->equip(*core_);
     core_->setInbox(&inbox_);
+    core_->service<rt::SystemOrdersSlot>().host = panelOrders_.get();
     core_->setResident(how.programStart, how.motorsOn);
     if (!how.state.empty()) core_->continueFrom(how.state, how.powerOn);
     if (const rt::ExitStatus status = core_->prepare(program_->description());
         status != rt::ExitStatus::Ended)
         return status;
+    bool& areKept = core_->service<rt::SystemOrdersSlot>().valuesAreKept;
+    areKept = true; // values that stay give no orders
     for (const auto& [name, value] : how.signals)
         if (const rt::SignalId id = core_->io().find(name); id >= 0) (void)core_->io().force(id, value);
+    areKept = false;
     for (const auto& task : core_->tasks())
         core_->setTaskActive(*task, inactive_.count(task->name()) == 0);
     observe();
@@ -245,7 +253,8 @@ Refusal VirtualController::restore(const std::string& backup) {
     std::error_code code;
     if (!home.empty() && std::filesystem::is_directory(backup + "/HOME", code))
         std::filesystem::copy(backup + "/HOME", home,
-                              std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing |
+                              std::filesystem::copy_options::recursive |
+                                  std::filesystem::copy_options::overwrite_existing |
                                   std::filesystem::copy_options::skip_symlinks,
                               code);
     if (code) fmt::print(stderr, "HOME of the backup: {}\n", code.message());

@@ -45,6 +45,8 @@ enum class RestartMode : uint8_t {
     Cold, ///< everything as at the first start, the program from its files
 };
 
+class PanelOrders;
+
 // Size: the orders of a controller in one place, so that every client finds the same ones.
 class VirtualController {
   public:
@@ -87,6 +89,8 @@ class VirtualController {
     Refusal setRunOnce(bool once);
     /// The emergency stop button: pressed or released. After its release the motors are off until setMotors().
     void pressEmergencyStop(bool pressed);
+    /// The reset of an emergency stop, after the release of its button: motors off.
+    Refusal confirmEmergencyStop();
     /// A safeguard: open or closed.
     void openSafeguard(bool open);
 
@@ -122,6 +126,10 @@ class VirtualController {
     // ---- The controller itself -------------------------------------------------------------------------------
     /// Takes effect after the command in progress; commands posted later wait for the new controller.
     Refusal restart(RestartMode mode);
+    /// An order has been given that replaces the present controller.
+    bool isBeingReplaced() const { return succession_ != nullptr; }
+    /// The orders of system inputs.
+    PanelOrders& panelOrders() { return *panelOrders_; }
     /// A cold restart with the programs, the configuration and the HOME of a backup, a folder of the host. Files of HOME that the backup
     /// does not have stay.
     Refusal restore(const std::string& backup);
@@ -156,6 +164,7 @@ class VirtualController {
     void noteModules(const rt::Task& task, const std::string& what);
     Refusal programStopped(const char* order) const;
     void applyPanel();
+    void switchCycle(const char* change);
     std::string openHome();
     void carryOutCursor();
     void everyFourMilliseconds();
@@ -166,6 +175,7 @@ class VirtualController {
     Observers observers_;
     PanelState panel_;
     StateWatch watch_{*this};
+    std::unique_ptr<PanelOrders> panelOrders_;
     ModuleEdits edits_;
     std::unique_ptr<LoadedProgram> program_;
     std::unique_ptr<rt::Controller> core_;

@@ -45,8 +45,19 @@ Refusal VirtualController::setMode(OperatingMode mode) {
     else
         core_->log().write(rt::EventId::ManualMode, nullptr, {full ? " at full speed" : ""});
     (void)setMotors(false);
+    switchCycle(mode == OperatingMode::Auto ? "ManualToAuto" : "AutoToManual");
     observers_.changed(Change::OperatingMode);
     return {};
+}
+
+/// RUN_MODE_SETTINGS of SYS.cfg: the cycle after a change of the mode.
+void VirtualController::switchCycle(const char* change) {
+    for (const rt::CfgInstance* setting : core_->instances("SYS", "RUN_MODE_SETTINGS")) {
+        const std::string to = setting->text("SwitchTo");
+        if (!rt::sameName(setting->text("Name"), change) || to.empty()) continue;
+        if (rt::sameName(to, "Single")) (void)setRunOnce(true);
+        if (rt::sameName(to, "Continuous")) (void)setRunOnce(false);
+    }
 }
 
 Refusal VirtualController::setSpeedRatio(int percent) {
@@ -70,6 +81,13 @@ void VirtualController::pressEmergencyStop(bool pressed) {
     emergencyStop_ = pressed;
     panel_.motors = pressed ? MotorState::EmergencyStop : MotorState::EmergencyStopReset;
     if (pressed) core_->actionEmergencyStop();
+}
+
+Refusal VirtualController::confirmEmergencyStop() {
+    if (emergencyStop_) return "the emergency stop is pressed: release it first";
+    if (panel_.motors == MotorState::EmergencyStopReset) panel_.motors = MotorState::Off;
+    core_->service<rt::PanelSwitches>().emergencyStop = false;
+    return {};
 }
 
 void VirtualController::openSafeguard(bool open) {

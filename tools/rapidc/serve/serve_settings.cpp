@@ -1,5 +1,6 @@
 #include "tools/rapidc/serve/serve_settings.h"
 
+#include "config/read_file.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/command_line.h"
 #include "runtime/net/address.h"
@@ -40,6 +41,18 @@ void addRobotWare(const rt::Command& command, int& version) {
         .typeName("N");
 }
 
+/// "" or why the file of the password cannot be used.
+std::string readPassword(ServeSettings& settings) {
+    if (settings.passwordFile.empty()) return {};
+    std::string text;
+    if (const std::string problem = rapid::config::readFile(settings.passwordFile, text); !problem.empty())
+        return fmt::format("--password-file={}: {}", settings.passwordFile, problem);
+    settings.password = text.substr(0, text.find_first_of("\r\n"));
+    if (settings.password.empty())
+        return fmt::format("--password-file={}: its first line is empty", settings.passwordFile);
+    return {};
+}
+
 } // namespace
 
 void addServeOptions(const rt::Command& command, ServeSettings& settings) {
@@ -52,6 +65,10 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
         .add("--password", settings.password,
              "password of the users 'Default User' and 'Admin'; default: robotics, as on a new controller")
         .typeName("TEXT");
+    command
+        .add("--password-file", settings.passwordFile,
+             "a file whose first line is the password, so that no list of processes shows it")
+        .typeName("FILE");
     command.addFlag("--no-program-start", settings.noProgramStart,
                     "begin with the motors off and the program stopped at main");
     addRobotWare(command, controller.robotWare);
@@ -75,6 +92,7 @@ std::string complete(ServeSettings& settings,
     inputs.robots = options.robots;
     inputs.conveyors = options.conveyors;
     inputs.cameras = options.cameras;
+    if (std::string problem = readPassword(settings); !problem.empty()) return problem;
     if (options.network.listen) {
         settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
         if (!rt::net::isLoopback(*options.network.listen) && settings.password == kDefaultPassword)

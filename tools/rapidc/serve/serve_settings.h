@@ -22,6 +22,7 @@ struct ServeSettings {
     uint16_t httpPort = 0, httpsPort = 0, webPort = 0; ///< 0: any free one
     std::string address = "127.0.0.1";                 ///< of the network interface
     std::string password = kDefaultPassword;
+    std::string passwordFile;             ///< its first line is the password; "" = none
     std::string backupFolder, tempFolder; ///< "" = temporary ones
     bool noProgramStart = false;
 };
