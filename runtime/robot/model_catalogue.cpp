@@ -251,14 +251,16 @@ Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
 
 namespace {
 
-/// The figures of a name (payload, reach), the smallest first.
+constexpr double kMillimetres = 1000; // a figure from here on is a reach in mm
+
+/// The figures of a name (payload in kg, reach in m), the smallest first.
 std::vector<double> figuresOf(const NameParts& parts) {
     std::vector<double> figures;
     for (const std::string& detail : parts.details) {
         double figure = 0;
         const auto read = std::from_chars(detail.data(), detail.data() + detail.size(), figure);
         if (read.ec == std::errc{} && read.ptr == detail.data() + detail.size() && figure > 0)
-            figures.push_back(figure);
+            figures.push_back(figure >= kMillimetres ? figure / 1000 : figure);
     }
     std::sort(figures.begin(), figures.end());
     return figures;

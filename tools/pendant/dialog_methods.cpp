@@ -108,8 +108,10 @@ class DialogArea final : public Area {
 
 void DialogArea::flushDialogs() {
     std::map<uint64_t, Json> now;
-    for (const Json& each : list())
-        now.emplace(each.at("id").get<uint64_t>(), each);
+    for (Json& each : list()) {
+        const auto id = each.at("id").get<uint64_t>();
+        now[id] = std::move(each);
+    }
     for (const auto& [id, dialog] : shown_)
         if (!now.contains(id)) hub_.broadcast("dialog", {{"closed", id}});
     for (const auto& [id, dialog] : now) {

@@ -150,7 +150,12 @@ void PendantService::handle(http::Request request, http::Respond respond) {
     const auto found = std::find_if(settings_.files.begin(), settings_.files.end(),
                                     [&](const PageFile& file) { return file.path == path; });
     if (found == settings_.files.end()) return respond(plain(404, "There is no such file"));
-    respond(secured(http::Response::text(200, std::string(found->bytes), std::string(found->type))));
+    const bool takesGzip = request.header("Accept-Encoding").find("gzip") != std::string_view::npos;
+    const bool sendsGzip = found->isCompressed && takesGzip;
+    http::Response response = http::Response::text(200, sendsGzip ? std::string(found->bytes) : plainBytes(*found), std::string(found->type));
+    if (found->isCompressed) response.headers.emplace_back("Vary", "Accept-Encoding");
+    if (sendsGzip) response.headers.emplace_back("Content-Encoding", "gzip");
+    respond(secured(std::move(response)));
 }
 
 http::Response PendantService::refusal(int status, const std::string& reason) {

@@ -235,7 +235,11 @@ std::optional<http::Response> FrontDoor::complete(Dialect dialect, http::Request
         if (dialect == Dialect::V1 && name == "action") request.action = value;
         request.query.add(name, value);
     }
-    const bool isForm = request.method != Method::Put && !from.body.empty();
+    // PUT brings a form or the bytes of a file.
+    const bool isFile =
+        request.method == Method::Put &&
+        (hasFreeForm(request.path) || request.contentType != "application/x-www-form-urlencoded");
+    const bool isForm = !isFile && !from.body.empty();
     if (isForm) {
         const auto fields = http::parseFields(from.body);
         if (!fields)

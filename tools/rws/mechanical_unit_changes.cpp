@@ -18,12 +18,14 @@ namespace {
 using rapid::config::sameName;
 using service::UnitChoice;
 
-constexpr std::array<const char*, 9> kJogModes = {"AxisGroup1", "AxisGroup2",       "Joint",   "Cartesian", "Linear",
-                                                  "Reorient",   "ConfigurationJog", "GoToPos", "Align"};
+constexpr std::array<const char*, 9> kJogModes = {"AxisGroup1",       "AxisGroup2", "Joint",
+                                                  "Cartesian",        "Linear",     "Reorient",
+                                                  "ConfigurationJog", "GoToPos",    "Align"};
 constexpr std::array<const char*, 4> kCoordinates = {"World", "Base", "Tool", "Wobj"};
 
 /// Takes the spelling of the table; false when the text is none of it.
-template <std::size_t Count> bool takeWord(const std::array<const char*, Count>& words, const std::string& text, std::string& out) {
+template <std::size_t Count>
+bool takeWord(const std::array<const char*, Count>& words, const std::string& text, std::string& out) {
     for (const char* word : words) {
         if (!sameName(word, text)) continue;
         out = word;
@@ -37,7 +39,8 @@ struct Increment {
     const char* name;
     double line, turn;
 };
-constexpr std::array<Increment, 3> kIncrements = {{{"Small", 0.05, 0.005}, {"Medium", 1, 0.02}, {"Large", 5, 0.2}}};
+constexpr std::array<Increment, 3> kIncrements = {
+    {{"Small", 0.05, 0.005}, {"Medium", 1, 0.02}, {"Large", 5, 0.2}}};
 
 } // namespace
 
@@ -45,7 +48,8 @@ Handler MechanicalUnits::changing(Reply (MechanicalUnits::*handler)(const Reques
     return access_.guarded(Domain::Motion, [this, handler](const Request& request) {
         const Unit* unit = manual_.unit(request.parameter("unit"));
         if (unit == nullptr)
-            return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", request.parameter("unit")));
+            return Reply::refuse(ReturnCode::NotFound,
+                                 fmt::format("there is no mechanical unit {}", request.parameter("unit")));
         return (this->*handler)(request, *unit);
     });
 }
@@ -63,7 +67,8 @@ Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
     take("payload", choice.payload);
     take("total-payload", choice.totalPayload);
     if (const std::string mode = request.form.text("jog-mode"); !mode.empty()) {
-        if (!takeWord(kJogModes, mode, choice.jogMode)) return badParameter("jog-mode", "AxisGroup1, AxisGroup2, Cartesian ..");
+        if (!takeWord(kJogModes, mode, choice.jogMode))
+            return badParameter("jog-mode", "AxisGroup1, AxisGroup2, Cartesian ..");
         isGiven = true;
     }
     if (const std::string system = request.form.text("coord-system"); !system.empty()) {
@@ -73,7 +78,8 @@ Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
     }
     if (const std::string mode = request.form.text("mode"); !mode.empty()) {
         if (!sameName(mode, unit.isActive ? "Activated" : "Deactivated"))
-            return Reply::refuse(ReturnCode::Rejected, "a program activates and deactivates units (ActUnit, DeactUnit)");
+            return Reply::refuse(ReturnCode::Rejected,
+                                 "a program activates and deactivates units (ActUnit, DeactUnit)");
         isGiven = true;
     }
     if (!isGiven) return badParameter("tool", "tool, wobj, payload, total-payload, jog-mode or coord-system");
@@ -103,7 +109,8 @@ Reply MechanicalUnits::setPathSupervision(const Request& request, const Unit& un
     const auto on = readBool(mode);
     const auto level = readWhole(text, 0, 300);
     if (mode.empty() && text.empty()) return badParameter("mode", "ON or OFF");
-    if ((!mode.empty() && !on) || (!text.empty() && !level)) return badParameter("mode", "ON or OFF; level from 0 to 300");
+    if ((!mode.empty() && !on) || (!text.empty() && !level))
+        return badParameter("mode", "ON or OFF; level from 0 to 300");
     if (on) choice.pathSupervision = *on;
     if (level) choice.pathSensitivity = static_cast<int>(*level);
     return replyTo(manual_.choose(unit, std::move(choice)));
@@ -111,7 +118,8 @@ Reply MechanicalUnits::setPathSupervision(const Request& request, const Unit& un
 
 Reply MechanicalUnits::setLeadThrough(const Request& request, const Unit& unit) {
     const std::string status = fieldOf(request, "status");
-    if (!sameName(status, "active") && !sameName(status, "inactive")) return badParameter("status", "active or inactive");
+    if (!sameName(status, "active") && !sameName(status, "inactive"))
+        return badParameter("status", "active or inactive");
     if (!unit.isRobot) return Reply::refuse(ReturnCode::Rejected, fmt::format("{} is no robot", unit.name));
     if (sameName(status, "active") && controller_.isRunning())
         return Reply::refuse(ReturnCode::Rejected, "the program is executing: stop it first");
@@ -125,7 +133,9 @@ Reply MechanicalUnits::teleport(const Request& request, const Unit& unit) {
     auto arm = numbersIn(fieldOf(request, "rob_joint"), 6);
     const auto external = numbersIn(fieldOf(request, "ext_joint"), 6);
     if (!arm) arm = numbersIn(fieldOf(request, "rob_joint"), 7);
-    if (!arm || !external) return badParameter("rob_joint and ext_joint", "[a1,..,a6] and [a,..,f], degrees or mm, 9E9 for no axis");
+    if (!arm || !external)
+        return badParameter("rob_joint and ext_joint",
+                            "[a1,..,a6] and [a,..,f], degrees or mm, 9E9 for no axis");
     return replyTo(manual_.teleport(unit, service::jointsFrom(kinematics, *arm, *external)));
 }
 
@@ -159,16 +169,19 @@ Reply MechanicalUnits::jog(const Request& request) {
         isGiven = true;
     }
     if (!isGiven) return badParameter("axis1", "speeds axis1 to axis6");
-    if (const std::string count = fieldOf(request, "ccount"); !count.empty() && !numberIn(count)) return badParameter("ccount", "a number");
+    if (const std::string count = fieldOf(request, "ccount"); !count.empty() && !numberIn(count))
+        return badParameter("ccount", "a number");
 
     std::string increment = fieldOf(request, "inc-mode"), mode = fieldOf(request, "jogmode");
     if (mode.empty()) mode = manual_.choice(*unit).jogMode;
     std::string known;
-    if (!takeWord(kJogModes, mode, known) || known == "GoToPos" || known == "Align" || known == "ConfigurationJog")
+    if (!takeWord(kJogModes, mode, known) || known == "GoToPos" || known == "Align" ||
+        known == "ConfigurationJog")
         return badParameter("jogmode", "AxisGroup1, AxisGroup2, Joint, Cartesian, Linear or Reorient");
     const std::string speedText = fieldOf(request, "cjogspeed");
     const auto speed = numberIn(speedText);
-    if (!speedText.empty() && (!speed || *speed < 0 || *speed > 100)) return badParameter("cjogspeed", "0 to 100 per cent");
+    if (!speedText.empty() && (!speed || *speed < 0 || *speed > 100))
+        return badParameter("cjogspeed", "0 to 100 per cent");
     rt::JogOrder order;
     const bool steps = !increment.empty() && !sameName(increment, "None") && !sameName(increment, "User");
     for (double& axis : axes) {
@@ -181,7 +194,8 @@ Reply MechanicalUnits::jog(const Request& request) {
     if (isLinear && !unit->isRobot) return badParameter("jogmode", "Joint: the unit has no TCP");
     if (known == "Reorient") {
         const bool isShort = axes[3] == 0 && axes[4] == 0 && axes[5] == 0;
-        order.turn = isShort ? motion::Vec3{axes[0], axes[1], axes[2]} : motion::Vec3{axes[3], axes[4], axes[5]};
+        order.turn =
+            isShort ? motion::Vec3{axes[0], axes[1], axes[2]} : motion::Vec3{axes[3], axes[4], axes[5]};
     } else if (isLinear) {
         order.line = {axes[0], axes[1], axes[2]};
         if (known == "Cartesian") order.turn = {axes[3], axes[4], axes[5]};
@@ -199,8 +213,9 @@ Reply MechanicalUnits::jog(const Request& request) {
                   : sameName(system, "Wobj") ? rt::JogFrame::WorkObject
                                              : rt::JogFrame::World;
     if (steps) {
-        const auto* step = std::find_if(kIncrements.begin(), kIncrements.end(),
-                                        [&](const Increment& each) { return sameName(each.name, increment); });
+        const auto* step = std::find_if(kIncrements.begin(), kIncrements.end(), [&](const Increment& each) {
+            return sameName(each.name, increment);
+        });
         if (step == kIncrements.end()) return badParameter("inc-mode", "Small, Medium, Large or User");
         const bool isLine = order.line.x != 0 || order.line.y != 0 || order.line.z != 0;
         order.increment = isLine ? step->line : step->turn;
@@ -218,13 +233,15 @@ void MechanicalUnits::addChanges(Router& router) {
     change(unit, "mechunit-position", "position", &MechanicalUnits::teleport);
     change(unit, "set-lead-through", "lead-through", &MechanicalUnits::setLeadThrough);
     change(unit + "/motionsupervision", "set", "mode", &MechanicalUnits::setMotionSupervision);
-    router.post(Dialect::V2, unit + "/motionsupervision/level", changing(&MechanicalUnits::setMotionSupervision));
+    router.post(Dialect::V2, unit + "/motionsupervision/level",
+                changing(&MechanicalUnits::setMotionSupervision));
     change(unit + "/pathsupervision", "set", "mode", &MechanicalUnits::setPathSupervision);
     router.post(Dialect::V2, unit + "/pathsupervision/level", changing(&MechanicalUnits::setPathSupervision));
     const Handler jogging = access_.guarded(Domain::Motion, [this](const Request& r) { return jog(r); });
     addOrder(router, all, "jog", "jog", jogging);
     router.action(all, "set-mechunit", [this](const Request& r) { return setJogUnit(r); });
-    router.add(Dialect::V2, {Method::Post, all + "/set-mechunit", {}, [this](const Request& r) { return setJogUnit(r); }});
+    router.add(Dialect::V2,
+               {Method::Post, all + "/set-mechunit", {}, [this](const Request& r) { return setJogUnit(r); }});
 }
 
 } // namespace rapidc::rws

@@ -13,7 +13,8 @@ namespace rapidc::rws {
 class MechanicalUnits {
   public:
     /// All of them must outlive the routes.
-    MechanicalUnits(service::VirtualController& controller, service::ManualMotion& manual, const Access& access)
+    MechanicalUnits(service::VirtualController& controller, service::ManualMotion& manual,
+                    const Access& access)
         : controller_(controller), manual_(manual), access_(access) {}
     void addTo(Router& router, Subscribables& subscribables);
 
