@@ -499,9 +499,12 @@ class Operator(PendantCase):
         self.assertEqual(self.page.call("dialogs.list")["dialogs"], [dialog])
         for wrong in ({}, {"choice": 0}, {"choice": 2}, {"choice": 6}, {"text": "Yes"}):  # 2: no button
             self.refused("bad_request", "dialogs.answer", id=dialog["id"], **wrong)
+        self.page.call("panel.cycle", cycle="once")
+        self.addCleanup(self.page.call, "panel.cycle", cycle="forever")
         self.page.call("dialogs.answer", id=dialog["id"], choice=3)
         self.page.wait("dialog", lambda data: data.get("closed") == dialog["id"])
-        self.eventually(lambda: self.value("count") == "3")
+        self.eventually(lambda: not self.panel()["running"])
+        self.assertEqual(self.value("count"), "3")
         self.refused("not_found", "dialogs.answer", id=dialog["id"], choice=3)
 
     def test_display(self):
