@@ -9,8 +9,8 @@
 #include "tools/pendant/unit_frames.h"
 #include "tools/service/manual_motion.h"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace rapidc::pendant {
 
@@ -73,7 +73,8 @@ class MotionArea final : public Area {
     struct Sent {
         robot::Joints joints;
         motion::ExternalAxes external = motion::kNoExternalAxes;
-        robot::Pose tcp, tool, workObject;
+        robot::Pose tcp;
+        FramesInForce frames;
         bool moving = false;
     };
 
@@ -142,11 +143,9 @@ void MotionArea::lookAtFrames(std::size_t unit) {
     const rt::MotionDriver& motion = *controller_.core().motions()[unit];
     rt::Task* task = taskMoving(controller_, motion);
     if (task == nullptr) return;
+    const FramesInForce frames = framesInForce(*task);
+    if (std::exchange(sent_[unit].frames, frames) == frames) return;
     const NamedFrame tool = toolInForce(controller_, *task), object = workObjectInForce(controller_, *task);
-    Sent& sent = sent_[unit];
-    if (tool.pose == sent.tool && object.pose == sent.workObject) return;
-    sent.tool = tool.pose;
-    sent.workObject = object.pose;
     hub_.broadcast("frames", {{"unit", motion.unitName()}, {"tool", frameJson(tool)}, {"workObject", frameJson(object)}});
 }
 

@@ -8,8 +8,6 @@
 #include "stdlib/impl/motion/state.h"
 #include "tools/pendant/support.h"
 
-#include <functional>
-
 namespace rapidc::pendant {
 
 namespace {
@@ -83,6 +81,11 @@ NamedFrame toolInForce(service::VirtualController& controller, rt::Task& task) {
 
 NamedFrame workObjectInForce(service::VirtualController& controller, rt::Task& task) {
     return named(frameOf(rt::lib::motionState(&task).workObject), workObjectsOf(controller, task), "wobj0", false);
+}
+
+FramesInForce framesInForce(rt::Task& task) {
+    const rt::lib::MotionState& state = rt::lib::motionState(&task);
+    return {frameOf(state.tool).pose, frameOf(state.workObject).pose};
 }
 
 Json frameJson(const NamedFrame& frame) {

@@ -26,6 +26,13 @@ std::vector<NamedFrame> workObjectsOf(service::VirtualController& controller, co
 NamedFrame toolInForce(service::VirtualController& controller, rt::Task& task);
 NamedFrame workObjectInForce(service::VirtualController& controller, rt::Task& task);
 
+/// Poses of both, without their names: costs little.
+struct FramesInForce {
+    robot::Pose tool, workObject;
+    bool operator==(const FramesInForce&) const = default;
+};
+FramesInForce framesInForce(rt::Task& task);
+
 Json frameJson(const NamedFrame& frame);
 
 } // namespace rapidc::pendant
