@@ -53,9 +53,9 @@ export class Model {
         const moved: Motion["units"] = [];
         for (const position of units) {
             const index = state.units.findIndex((unit) => unit.name === position.unit);
-            if (index >= 0) moved.push([index, position.joints, position.external, position.world, position.flange, 0, 0]);
+            if (index >= 0 && !this.positions[index]) moved.push([index, position.joints, position.external, position.world, position.flange, 0, 0]);
         }
-        this.takeMotion({ t: state.time.t, units: moved });
+        this.takeMotion({ t: Math.max(state.time.t, this.lastTime), units: moved });
         const { signals } = await this.connection.request<{ signals: Signal[] }>("signals.subscribe", { all: true });
         this.emit("signals", signals);
     }

@@ -84,6 +84,7 @@ export class Recorder {
         if (!this.recording || motion.units.length === 0) return;
         const { samples } = this.current;
         const before = samples[samples.length - 1];
+        if (before && motion.t < before.t) return; // the clock of a controller never runs backwards within a run
         const units = before ? [...before.units] : [];
         for (const unit of motion.units) units[unit[0]] = sampleOf(unit);
         samples.push({ t: motion.t, units });
