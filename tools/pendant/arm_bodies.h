@@ -46,6 +46,7 @@ struct Body {
 std::vector<Body> bodiesOf(const robot::RobotModel& model);
 
 /// Poses of the bodies in the base frame at these joints.
-std::vector<robot::Pose> posesOf(const std::vector<Body>& bodies, const robot::Joints& joints, const robot::Pose& flange);
+std::vector<robot::Pose> posesOf(const std::vector<Body>& bodies, const robot::Joints& joints,
+                                 const robot::Pose& flange);
 
 } // namespace rapidc::pendant

@@ -57,7 +57,8 @@ template <class Value> struct Word {
 };
 [[noreturn]] void noSuchWord(const char* name, const std::vector<const char*>& words);
 /// One of the words.
-template <class Value, std::size_t N> Value wordOf(const Json& params, const char* name, const Word<Value> (&words)[N]) {
+template <class Value, std::size_t N>
+Value wordOf(const Json& params, const char* name, const Word<Value> (&words)[N]) {
     const std::string text = textOf(params, name);
     std::vector<const char*> known;
     for (const Word<Value>& word : words) {

@@ -36,11 +36,14 @@ NamedFrame frameOf(const rt::data::Wobjdata& object) {
 }
 
 template <class Data>
-std::vector<NamedFrame> framesOf(service::VirtualController& controller, const rt::Task& task, const char* type) {
+std::vector<NamedFrame> framesOf(service::VirtualController& controller, const rt::Task& task,
+                                 const char* type) {
     std::vector<NamedFrame> frames;
     const rt::ProgramTables& tables = controller.core().tables();
     for (const rt::GlobalDesc* global : tables.globals()) {
-        if (!sameName(global->type->baseName, type) || !tables.isDeclaredIn(*global, static_cast<int32_t>(task.index()))) continue;
+        if (!sameName(global->type->baseName, type) ||
+            !tables.isDeclaredIn(*global, static_cast<int32_t>(task.index())))
+            continue;
         if ((global->flags & rt::kDataPredefined) != 0) continue;
         const rt::DebugVariable variable = rt::dataOf(*global);
         if (variable.rank > 0 || variable.data == nullptr || variable.isConstant) continue;
@@ -52,10 +55,12 @@ std::vector<NamedFrame> framesOf(service::VirtualController& controller, const r
     return frames;
 }
 
-NamedFrame named(NamedFrame frame, const std::vector<NamedFrame>& known, const char* standard, bool isStandardHeld) {
+NamedFrame named(NamedFrame frame, const std::vector<NamedFrame>& known, const char* standard,
+                 bool isStandardHeld) {
     if (frame.pose == robot::Pose{} && frame.isHeld == isStandardHeld) frame.name = standard;
     for (const NamedFrame& each : known)
-        if (each.pose == frame.pose && each.isHeld == frame.isHeld) frame.name = each.name, frame.module = each.module;
+        if (each.pose == frame.pose && each.isHeld == frame.isHeld)
+            frame.name = each.name, frame.module = each.module;
     return frame;
 }
 
@@ -80,7 +85,8 @@ NamedFrame toolInForce(service::VirtualController& controller, rt::Task& task) {
 }
 
 NamedFrame workObjectInForce(service::VirtualController& controller, rt::Task& task) {
-    return named(frameOf(rt::lib::motionState(&task).workObject), workObjectsOf(controller, task), "wobj0", false);
+    return named(frameOf(rt::lib::motionState(&task).workObject), workObjectsOf(controller, task), "wobj0",
+                 false);
 }
 
 FramesInForce framesInForce(rt::Task& task) {
@@ -89,7 +95,10 @@ FramesInForce framesInForce(rt::Task& task) {
 }
 
 Json frameJson(const NamedFrame& frame) {
-    return {{"name", frame.name}, {"module", frame.module}, {"pose", poseJson(frame.pose)}, {"held", frame.isHeld}};
+    return {{"name", frame.name},
+            {"module", frame.module},
+            {"pose", poseJson(frame.pose)},
+            {"held", frame.isHeld}};
 }
 
 } // namespace rapidc::pendant

@@ -12,9 +12,10 @@ namespace rapidc::pendant {
 
 struct NamedFrame {
     std::string name, module;
-    robot::Pose pose;     ///< tool: TCP in the flange, or in world when the robot does not hold it; work object: in world, or in the flange
-    bool isHeld = false;  ///< by the robot
-    double massKg = 0;    ///< of a tool
+    robot::Pose
+        pose; ///< tool: TCP in the flange, or in world when the robot does not hold it; work object: in world, or in the flange
+    bool isHeld = false; ///< by the robot
+    double massKg = 0;   ///< of a tool
 };
 
 /// The task that moves the robot; null when none does.

@@ -47,14 +47,15 @@ Json bodyJson(const Body& body) {
         terms.push_back(Json::array({joint, factor}));
     for (const Solid& solid : body.solids)
         solids.push_back(solidJson(solid));
-    return {{"name", body.name},
-            {"parent", body.parent},
-            {"origin", poseJson(body.origin)},
-            {"axis", Json::array({rounded(body.axis.x, 7), rounded(body.axis.y, 7), rounded(body.axis.z, 7)})},
-            {"motion", motionName(body.motion)},
-            {"constant", rounded(body.constant, kDegrees)},
-            {"terms", std::move(terms)},
-            {"solids", std::move(solids)}};
+    return {
+        {"name", body.name},
+        {"parent", body.parent},
+        {"origin", poseJson(body.origin)},
+        {"axis", Json::array({rounded(body.axis.x, 7), rounded(body.axis.y, 7), rounded(body.axis.z, 7)})},
+        {"motion", motionName(body.motion)},
+        {"constant", rounded(body.constant, kDegrees)},
+        {"terms", std::move(terms)},
+        {"solids", std::move(solids)}};
 }
 
 Json jointsJson(const rt::MotionDriver& motion, const robot::Kinematics& kinematics) {
@@ -133,7 +134,8 @@ Json UnitArea::unitJson(rt::MotionDriver& motion) const {
               {"external", externalJson(motion)},
               {"bodies", std::move(bodies)},
               {"reach", rounded(motion.model().reachM * 1000, 0)}};
-    if (hasArm) json["base"] = poseJson(system.flangeInWorld(joints) * inverse(kinematics.forward(joints.robax)));
+    if (hasArm)
+        json["base"] = poseJson(system.flangeInWorld(joints) * inverse(kinematics.forward(joints.robax)));
     if (task != nullptr) {
         const NamedFrame tool = toolInForce(controller_, *task);
         json["tool"] = frameJson(tool);

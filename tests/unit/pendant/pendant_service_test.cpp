@@ -37,7 +37,8 @@ class Browser final : public http::WebSocket {
     Json answer(int id) {
         std::unique_lock lock(mutex_);
         for (std::size_t i = 0;; ++i) {
-            if (!arrived_.wait_for(lock, std::chrono::seconds(10), [&] { return messages_.size() > i; })) return nullptr;
+            if (!arrived_.wait_for(lock, std::chrono::seconds(10), [&] { return messages_.size() > i; }))
+                return nullptr;
             Json message = Json::parse(messages_[i]);
             if (message.value("id", Json()) == Json(id)) return message;
         }
@@ -77,7 +78,8 @@ class Served {
         manual_ = std::make_unique<service::ManualMotion>(*controller_);
         configuration_ = std::make_unique<service::ConfigurationStore>(*controller_);
         const Shared shared{*controller_, *journal_, *manual_, *configuration_, volumes_};
-        service = std::make_unique<PendantService>(shared, PendantSettings{.files = fallbackPage(), .password = "secret", .address = "0.0.0.0"});
+        service = std::make_unique<PendantService>(
+            shared, PendantSettings{.files = fallbackPage(), .password = "secret", .address = "0.0.0.0"});
         service->setPort(8080);
         thread_ = std::thread([this] { controller_->run(); });
     }
@@ -97,7 +99,8 @@ class Served {
         head.peer = peer;
         return head;
     }
-    std::shared_ptr<http::SocketListener> open(const std::string& peer, const std::shared_ptr<Browser>& browser) const {
+    std::shared_ptr<http::SocketListener> open(const std::string& peer,
+                                               const std::shared_ptr<Browser>& browser) const {
         http::Decision decision = service->decide(head(peer, "192.168.1.4:8080"));
         REQUIRE(decision.upgrade);
         decision.upgrade->listener->opened(browser);
@@ -151,7 +154,9 @@ TEST_CASE("pendant: a page on this computer needs no password", "[pendant]") {
     }
 }
 
-TEST_CASE("pendant: with --listen any address of the computer is its name, but no name of others (contract 17)", "[pendant]") {
+TEST_CASE(
+    "pendant: with --listen any address of the computer is its name, but no name of others (contract 17)",
+    "[pendant]") {
     const Served served;
     for (const char* host : {"192.168.1.4:8080", "localhost:8080", "[fe80::1]:8080", "127.0.0.1:8080"})
         CHECK_FALSE(served.service->decide(served.head("10.0.0.1", host, false)).answer);
