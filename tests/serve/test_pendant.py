@@ -544,7 +544,7 @@ class Operator(PendantCase):
         self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
         self.page.call("data.write", path="T_ROB1/MainModule/count", value="4711")
         self.page.call("run.start")
-        self.page.wait("display", lambda data: data["lines"][-1] == "4711")
+        self.page.wait("display", lambda data: data.get("line") == "4711")
         self.assertIn("4711", self.page.call("display.read")["lines"])
 
     def test_events(self):

@@ -199,11 +199,10 @@ std::vector<Body> delta(const robot::RobotModel& model) {
     base.solids.push_back(
         solid(Solid::Kind::Cylinder, Solid::Role::Arm, {0, 0, -r}, {0, 0, r * 3}, g.baseRadius + r));
     std::vector<Body> bodies{base};
-    Body flange;
-    flange.name = "flange";
-    flange.motion = Body::Motion::Flange;
-    flange.solids.push_back(solid(Solid::Kind::Cylinder, Solid::Role::Flange, {0, 0, -r}, {}, r * 1.5));
-    bodies.push_back(flange);
+    Body carried; // what the motion gives; the flange itself comes last
+    carried.name = "carried";
+    carried.motion = Body::Motion::Flange;
+    bodies.push_back(carried);
     // The platform stays level and does not turn with axis 4.
     Body platform =
         turning(model, "platform", 1, {{}, robot::conjugate(model.flangeRot)}, {0, 0, 1}, {{3, -1.0}});
@@ -227,6 +226,7 @@ std::vector<Body> delta(const robot::RobotModel& model) {
         }
         bodies.push_back(std::move(arm));
     }
+    addFlange(bodies, 1, {}, r * 1.5);
     return bodies;
 }
 

@@ -42,7 +42,7 @@ struct Body {
     std::vector<Solid> solids;
 };
 
-/// The body named "flange" is the flange frame. Empty for a model without an arm.
+/// The last body, "flange", is the flange frame. Empty for a model without an arm.
 std::vector<Body> bodiesOf(const robot::RobotModel& model);
 
 /// Poses of the bodies in the base frame at these joints.

@@ -37,7 +37,7 @@ Json describe(const Open& open) {
     return {{"id", open.number},      {"task", open.task->name()}, {"instruction", dialog.instruction},
             {"kind", kindOf(dialog)}, {"header", dialog.header},   {"lines", dialog.lines},
             {"icon", dialog.icon},    {"image", dialog.image},     {"choices", dialog.choices},
-            {"items", dialog.items},  {"hint", dialog.hint}};
+            {"items", dialog.items},  {"hint", dialog.hint},       {"initial", ""}};
 }
 
 /// UIMsgWrite: a message that stays while the program continues; its id is 0.
@@ -52,7 +52,8 @@ Json describe(const rt::PanelMessage& message) {
             {"image", message.image},
             {"choices", Json::array()},
             {"items", Json::array()},
-            {"hint", ""}};
+            {"hint", ""},
+            {"initial", ""}};
 }
 
 class DialogArea final : public Area {
@@ -60,7 +61,7 @@ class DialogArea final : public Area {
     explicit DialogArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
         observer.changed = [this](Change change, const rt::Task*) {
-            if (change == Change::Generation) shown_.clear(), isDisplayed_ = false;
+            if (change == Change::Generation) shown_.clear(), lines_.clear(), isDisplayed_ = false;
             if (change == Change::Dialog || change == Change::Display || change == Change::Generation)
                 hub_.wake();
             isChanged_ = isChanged_ || change == Change::Dialog;
@@ -77,10 +78,14 @@ class DialogArea final : public Area {
         methods.add("dialogs.answer", [this](Client&, const Json& params) { return answer(params); });
         methods.add("display.read", [this](Client&, const Json&) { return display(); });
     }
-    void describe(Json& state) override { state["dialogs"] = list(), state["display"] = display(); }
+    void describe(Json& state) override {
+        flush(); // what this answer holds is not notified after it
+        state["dialogs"] = list();
+        state["display"] = display();
+    }
     void flush() override {
         if (std::exchange(isChanged_, false)) flushDialogs();
-        if (std::exchange(isDisplayed_, false)) hub_.broadcast("display", display());
+        if (std::exchange(isDisplayed_, false)) flushDisplay();
     }
 
   private:
@@ -99,12 +104,14 @@ class DialogArea final : public Area {
                  std::vector<std::string>(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end())}};
     }
     void flushDialogs();
+    void flushDisplay();
     Json answer(const Json& params);
 
     service::VirtualController& controller_;
     Hub& hub_;
     service::Observers::Token observer_ = 0;
     std::map<uint64_t, Json> shown_; ///< dialogs that pages know of
+    std::deque<std::string> lines_;  ///< of the display, as pages know them
     bool isChanged_ = false, isDisplayed_ = false;
 };
 
@@ -122,6 +129,21 @@ void DialogArea::flushDialogs() {
             hub_.broadcast("dialog", {{"opened", dialog}});
     }
     shown_ = std::move(now);
+}
+
+/// The new lines, or everything when the display was erased meanwhile.
+void DialogArea::flushDisplay() {
+    const std::deque<std::string>& now = panel().display();
+    std::size_t kept = std::min(lines_.size(), now.size()); // the end of what was is the beginning of what is
+    const auto continues = [&] {
+        return std::equal(lines_.end() - static_cast<std::ptrdiff_t>(kept), lines_.end(), now.begin());
+    };
+    while (kept > 0 && !continues())
+        --kept;
+    if (kept == 0 && !lines_.empty()) hub_.broadcast("display", {{"clear", true}});
+    for (std::size_t i = kept; i < now.size(); ++i)
+        hub_.broadcast("display", {{"line", now[i]}});
+    lines_ = now;
 }
 
 Json DialogArea::answer(const Json& params) {

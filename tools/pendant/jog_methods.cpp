@@ -141,9 +141,7 @@ Json JogArea::choose(const Json& params) {
     if (has(params, "tool")) choice.tool = nameOf(textOf(params, "tool"));
     if (has(params, "workObject")) choice.workObject = nameOf(textOf(params, "workObject"));
     refuseUnless(manual_.choose(unit, choice));
-    NamedFrame tool, object;
-    tool.name = choice.tool, tool.isHeld = true;
-    object.name = choice.workObject;
+    NamedFrame tool = tool0(), object = workObject0();
     if (const rt::Task* task = manual_.taskOf(unit)) {
         for (const NamedFrame& each : toolsOf(controller_, *task))
             if (sameName(each.name, choice.tool)) tool = each;

@@ -66,6 +66,19 @@ NamedFrame named(NamedFrame frame, const std::vector<NamedFrame>& known, const c
 
 } // namespace
 
+NamedFrame tool0() {
+    NamedFrame frame;
+    frame.name = "tool0";
+    frame.isHeld = true;
+    return frame;
+}
+
+NamedFrame workObject0() {
+    NamedFrame frame;
+    frame.name = "wobj0";
+    return frame;
+}
+
 rt::Task* taskMoving(service::VirtualController& controller, const rt::MotionDriver& motion) {
     for (const auto& task : controller.core().tasks())
         if (task->motionGroup() == static_cast<int>(motion.group())) return task.get();

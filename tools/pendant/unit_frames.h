@@ -18,6 +18,8 @@ struct NamedFrame {
     double massKg = 0;   ///< of a tool
 };
 
+NamedFrame tool0();
+NamedFrame workObject0();
 /// The task that moves the robot; null when none does.
 rt::Task* taskMoving(service::VirtualController& controller, const rt::MotionDriver& motion);
 /// Persistent tooldata (wobjdata) that the task declares.
