@@ -129,7 +129,7 @@ Json ModuleArea::save(const Json& params) {
         std::any_of(std::begin(kExtensions), std::end(kExtensions),
                     [&](const char* extension) { return endsWithName(file.rapid, extension); });
     if (!isModule)
-        badRequest(fmt::format("{} is no file of a module", file.rapid),
+        badRequest(fmt::format("{} is not a file of a module", file.rapid),
                    "Let its name end in .mod, .modx, .sys or .sysx");
     const std::string problem =
         rws::saveModule(controller_.core(), named.task, named.module, named.text, file.host);

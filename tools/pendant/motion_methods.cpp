@@ -69,7 +69,7 @@ class MotionArea final : public Area {
     void describe(Json& state) override { state["motion"] = sampleOf(true); }
 
   private:
-    /// What was sent last of a unit.
+    /// The last sample of a unit that was sent.
     struct Sent {
         robot::Joints joints;
         motion::ExternalAxes external = motion::kNoExternalAxes;

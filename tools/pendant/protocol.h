@@ -1,5 +1,5 @@
 #pragma once
-// Words of the protocol (docs/pendant.md): errors, and the readers of parameters. What is missing or wrong becomes a RequestError.
+// Words of the protocol (docs/pendant.md): errors, and the readers of parameters. A parameter that is missing or wrong becomes a RequestError.
 
 #include <nlohmann/json_fwd.hpp>
 
