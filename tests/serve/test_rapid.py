@@ -137,12 +137,16 @@ class Execution(RapidCase):
         self.reset(client)
         self.assertEqual(self.start(client, execmode="stepin").status, 204)
         self.wait_position(client, "8,5")
+        self.wait_stopped(client)
         self.assertEqual(client.act("/rw/rapid/execution", "start", {"execmode": "stepover"}).status, 204)
         self.wait_position(client, "9,5")
+        self.wait_stopped(client)
         self.assertEqual(client.act("/rw/rapid/execution", "start", {"execmode": "stepin"}).status, 204)
         self.wait_position(client, "14,5")
+        self.wait_stopped(client)
         self.assertEqual(client.act("/rw/rapid/execution", "start", {"execmode": "stepout"}).status, 204)
         self.wait_position(client, "10,5")
+        self.wait_stopped(client)
         self.reset(client)
 
     def test_breakpoints(self):
@@ -183,7 +187,7 @@ class Execution(RapidCase):
             writer = self.client(1)
             self.reset(writer)
             writer.post("/rw/rapid/execution?action=setcycle", {"cycle": "forever"})
-            response = client.subscribe("/rw/rapid/execution;ctrlexecstate", "/rw/rapid/execution;rapidexeccycle",
+            response = client.subscribe(("/rw/rapid/execution;ctrlexecstate", 2), ("/rw/rapid/execution;rapidexeccycle", 2),
                                         f"{TASK}/pcp;programpointerchange", f"{TASK};taskchange", "/rw/rapid/tasks;taskchange")
             self.assertEqual(response.status, 201, response)
             first = {entry.type: entry.values for entry in response.entries()}
