@@ -5,6 +5,7 @@
 
 #include "codegen/budget_loops.h"
 #include "codegen/data_image.h"
+#include "codegen/interpreted_routine.h"
 #include "codegen/routine_emitter.h"
 #include "codegen/task_frame.h"
 
@@ -273,7 +274,12 @@ llvm::Function* ModuleEmitter::cEntry(uint32_t index) {
 
 void ModuleEmitter::emitBodies() {
     for (uint32_t i = 0; i < module_.routines.size(); ++i)
-        if (defined_[i] || copied_[i]) RoutineEmitter(*this, i).run();
+        if (!defined_[i] && !copied_[i])
+            continue;
+        else if (isInterpreted(module_, module_.routines[i], options_))
+            emitInterpreted(*this, i);
+        else
+            RoutineEmitter(*this, i).run();
 }
 
 /// C entry: Bool travels as a byte, a scalar result through a pointer.

@@ -4,6 +4,7 @@
 
 #include "codegen/joined_rounds.h"
 #include "codegen/paced_routines.h"
+#include "codegen/retried_statements.h"
 #include "codegen/wide_loop.h"
 #include "ir/core/op_info.h"
 
@@ -75,18 +76,9 @@ void RoutineEmitter::analyse() {
     for (ir::BlockId b = 0; b < routine_.blocks.size(); ++b)
         for (ir::ValueId id : routine_.blocks[b].insts)
             homeOf_[id] = b;
-    inUndo_.assign(routine_.blocks.size(), false);
-    std::vector<ir::BlockId> work{routine_.undoHandler};
-    while (!work.empty()) {
-        ir::BlockId b = work.back();
-        work.pop_back();
-        if (b >= inUndo_.size() || inUndo_[b]) continue;
-        inUndo_[b] = true;
-        for (ir::BlockId succ : ir::successors(routine_, b))
-            work.push_back(succ);
-    }
-    findFailing();
-    findRetried();
+    inUndo_ = undoBlocks(routine_);
+    mayFail_ = failingStatements(module_, routine_, cfg_);
+    beginsRetried_ = retriedBlocks(routine_, cfg_, mayFail_);
     // Ways back out of error handlers do not count as loops.
     const ir::Cfg straight = ir::buildCfg(module_, routine_, ir::HandlerEdges::No);
     const ir::LoopInfo loops = ir::findLoops(straight);
@@ -96,46 +88,6 @@ void RoutineEmitter::analyse() {
         inLoop_.push_back(!loops.irreducible.empty() || loops.loopOf[b] != ir::kNone);
     findFrameBlock();
     findFastLoops();
-}
-
-bool RoutineEmitter::isEmpty(ir::BlockId id) const {
-    const ir::Block& block = routine_.blocks[id];
-    return block.insts.size() == 1 && routine_.insts[block.insts.back()].op == ir::Op::Br;
-}
-
-/// The statements that the error handler may come from.
-void RoutineEmitter::findFailing() {
-    if (routine_.errorHandler == ir::kNone) return;
-    // A handler with a list takes errors of interrupt routines, too, which run at safepoints anywhere.
-    const bool anywhere = !routine_.errorFilter.empty() || !routine_.errorFilterGlobals.empty();
-    mayFail_.assign(routine_.statements.size(), anywhere);
-    for (ir::BlockId b : cfg_.order)
-        for (ir::ValueId id : routine_.blocks[b].insts)
-            if (const ir::Inst& inst = routine_.insts[id]; inst.stmt < mayFail_.size())
-                mayFail_[inst.stmt] = mayFail_[inst.stmt] || ir::mayRaise(module_, inst);
-}
-
-/// Beginnings of statements that RETRY may execute again.
-void RoutineEmitter::findRetried() {
-    const auto isRetry = [&](ir::BlockId b) {
-        return routine_.insts[routine_.blocks[b].insts.back()].op == ir::Op::Retry;
-    };
-    if (std::none_of(cfg_.order.begin(), cfg_.order.end(), isRetry)) return;
-    beginsRetried_.assign(routine_.blocks.size(), false);
-    for (size_t s = 0; s < mayFail_.size(); ++s) {
-        ir::BlockId start = routine_.statements[s].start;
-        if (!mayFail_[s] || !routine_.statements[s].handled || start == ir::kNone) continue;
-        beginsRetried_[start] = true;
-        // A loop goes back to the next block.
-        if (isEmpty(start)) beginsRetried_[routine_.insts[routine_.blocks[start].insts[0]].target[0]] = true;
-    }
-}
-
-/// A statement that is entered other than by RETRY has not failed yet: its RETRYs are counted anew.
-void RoutineEmitter::enterStatement() {
-    if (beginsRetried_.empty() || (beginsRetried_[current_] && isEmpty(current_))) return;
-    const std::vector<ir::BlockId> next = ir::successors(routine_, current_);
-    if (std::any_of(next.begin(), next.end(), [&](ir::BlockId b) { return beginsRetried_[b]; })) markFrame(0);
 }
 
 /// The frame record is filled where all calls are still ahead, but no earlier: a routine that returns before its first
@@ -354,7 +306,7 @@ void RoutineEmitter::action(const ir::Inst& inst, ir::ValueId id) {
 }
 
 void RoutineEmitter::terminator(const ir::Inst& inst) {
-    enterStatement();
+    if (entersRetried(routine_, current_, beginsRetried_)) markFrame(0);
     switch (ir::as<ir::EndOp>(inst.op)) {
     case ir::EndOp::Br:
         if (entersFastLoop()) return;

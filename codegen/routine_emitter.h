@@ -48,10 +48,6 @@ class RoutineEmitter {
     void setTaskFrame(Value* frame);
     void storeTaskFrame(Value* frame);
     void fillAddresses();
-    void findFailing();
-    void findRetried();
-    bool isEmpty(ir::BlockId id) const;
-    void enterStatement();
     void markFrame(int32_t content);
     template <auto member> void storeFrame(Value* content) {
         abi::storeField<member>(b_, frame_, content)

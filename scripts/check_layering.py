@@ -44,6 +44,7 @@ LAYERS = {
     # the controller, from what all of it shares up to the whole
     "runtime/base": ["config"],
     "runtime/value": ["runtime/abi"],
+    "runtime/interpreter": ["runtime/abi"],
     "runtime/program": ["runtime/abi", "runtime/base"],
     "runtime/log": ["runtime/base", "config"],
     "runtime/sched": ["runtime/abi", "runtime/base", "runtime/log"],

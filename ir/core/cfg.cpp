@@ -98,10 +98,33 @@ bool mayRaise(const Module& module, const Inst& inst) {
 }
 
 bool Cfg::dominates(BlockId a, BlockId b) const {
-    while (b != kNone && b != a)
-        b = idom[b];
-    return b == a;
+    if (a == b) return true;
+    return reachable(a) && reachable(b) && enters[a] <= enters[b] && leaves[b] <= leaves[a];
 }
+
+namespace {
+
+/// Numbers the tree of dominators: whether one block dominates another is asked very often, and chains are long.
+void numberDominators(Cfg& cfg) {
+    const size_t count = cfg.succs.size();
+    cfg.enters.assign(count, 0);
+    cfg.leaves.assign(count, 0);
+    // Dominators come first in reverse postorder: sizes from the end, places from the beginning.
+    std::vector<uint32_t> size(count, 1), next(count, 0);
+    const auto& order = cfg.order;
+    for (auto b = order.rbegin(); b != order.rend(); ++b)
+        if (cfg.idom[*b] != kNone) size[cfg.idom[*b]] += size[*b];
+    uint32_t free = 1;
+    for (const BlockId b : order) {
+        uint32_t& place = cfg.idom[b] == kNone ? free : next[cfg.idom[b]];
+        cfg.enters[b] = place;
+        place += size[b];
+        cfg.leaves[b] = place - 1;
+        next[b] = cfg.enters[b] + 1;
+    }
+}
+
+} // namespace
 
 Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerEdges) {
     Cfg cfg;
@@ -136,6 +159,7 @@ Cfg buildCfg(const Module& module, const Routine& routine, HandlerEdges handlerE
     for (uint32_t i = 0; i < cfg.order.size(); ++i)
         cfg.position[cfg.order[i]] = i;
     cfg.idom = findDominators(cfg, roots);
+    numberDominators(cfg);
     return cfg;
 }
 

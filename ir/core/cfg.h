@@ -20,6 +20,9 @@ struct Cfg {
     std::vector<uint32_t> position; ///< index into `order`; kNone = unreachable
     std::vector<BlockId> idom;      ///< immediate dominator; kNone for roots and unreachable blocks
 
+    /// Places of a block's subtree in a walk over the tree of dominators; both 0 for unreachable blocks.
+    std::vector<uint32_t> enters, leaves;
+
     bool reachable(BlockId block) const { return position[block] != kNone; }
     bool dominates(BlockId a, BlockId b) const;
 };

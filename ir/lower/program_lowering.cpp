@@ -485,7 +485,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
             routineFor(*routine, index);
     }
     drainPending();
-    if (searchesData()) addPredefinedData(index);
+    if (searchesData() || options_.keepsPredefined) addPredefinedData(index);
     ir::TaskEntry entry;
     entry.name = current.name;
     entry.kind = current.type;

@@ -15,7 +15,7 @@ COMPILE_OPTIONS = ("--task=", "--config=", "--robot-config=")
 DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
 # A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
 HANGS_AFTER_S = 60
-MODES = ("jit", "parts", "aot", "step")
+MODES = ("jit", "parts", "aot", "step", "words", "stepwords")
 KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "rule"}
 
 
@@ -177,8 +177,9 @@ class ProgramTest:
                 extra.append("--signals=" + outputs[".signals"])
             if self.expectation(".events"):
                 extra.append("--events=" + outputs[".events"])
-            if mode in ("jit", "parts", "step"):
-                profile = {"step": ["--stepping"], "parts": ["--in-parts"]}.get(mode, [])
+            if mode != "aot":
+                profile = {"step": ["--stepping"], "parts": ["--in-parts"], "words": ["--interpreted"],
+                           "stepwords": ["--interpreted", "--stepping"]}.get(mode, [])
                 command = [context.rapidc, "run", *profile, *inputs, *compile_options, *run_options, *extra]
             else:
                 program = os.path.join(scratch, "program")

@@ -21,6 +21,7 @@ LoadedProgram::~LoadedProgram() = default;
 bool LoadedProgram::compile(const CompileSettings& settings, std::string& error) {
     options_ = codegenOptions(settings.optimise);
     if (settings.inParts) options_.partsAbove = 0;
+    options_.interpretsAll = settings.interpreted;
     options_.isExecutedOnce = settings.executedOnce;
     if (compilation_->sink.hasErrors() ||
         !lowerToIr(*compilation_, settings.name, settings.stepping, module_, options_.partsAbove + 1))

@@ -25,6 +25,7 @@ struct CompileSettings {
     bool stepping = false; ///< the stepping profile
     bool optimise = true;
     bool inParts = false;      ///< each routine when it is called first, also in a small program
+    bool interpreted = false;  ///< every routine is interpreted, not only huge ones
     bool executedOnce = false; ///< main runs once: its own loops need no better code than that
 };
 

@@ -90,6 +90,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.programName = name;
     options.stepping = stepping;
     options.callsByName = compilation.callsByName;
+    options.keepsPredefined = compilation.keepsPredefined;
     options.configNames = compilation.configNames;
     options.configTexts = compilation.configTexts;
     options.eventRoutines = compilation.eventRoutines;

@@ -31,6 +31,7 @@ struct RunSettings {
     bool stepping = false;    ///< compile for the stepping profile
     bool noStepping = false;  ///< not even for --state
     bool interactive = false; ///< --step
+    bool interpreted = false; ///< execute every routine by the interpreter, as huge ones
     bool inParts = false;     ///< compile each routine when it is called, as in large programs
 };
 
@@ -111,6 +112,7 @@ int run(RunSettings& settings) {
                          .stepping = settings.stepping,
                          .optimise = !settings.noOptimise,
                          .inParts = settings.inParts,
+                         .interpreted = settings.interpreted,
                          .executedOnce = settings.options.cycles == 1 && !settings.stepping},
                         error);
     printDiagnostics(program.compilation());
@@ -151,6 +153,8 @@ void addRunCommand(rt::CommandLine& line) {
                  "With --state: fast code, but a program that is interrupted begins at main in the next run")
         .excludes(stepping);
     command.addFlag("--no-optimise", settings->noOptimise, "Leave out the optimiser");
+    command.addFlag("--interpreted", settings->interpreted, "Interpret every routine, as huge ones are")
+        .hide(); // for tests
     command
         .addFlag("--in-parts", settings->inParts,
                  "Compile each routine when it is called first, also in a small program")

@@ -1,10 +1,10 @@
 #pragma once
 // Accounts: the users of the controller and the proofs of their passwords. No password is kept. Used on the network thread only.
 
+#include "tools/rws/digest.h"
+
 #include <chrono>
-#include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -18,7 +18,8 @@ class Accounts {
     explicit Accounts(const std::string& password);
 
     /// Header Authorization of HTTP basic: the user, "" when it is refused.
-    std::string checkBasic(std::string_view authorization);
+    /// `isBusy`: too many wrong passwords were tried within a second, so this one was not checked.
+    std::string checkBasic(std::string_view authorization, bool& isBusy);
     /// Header Authorization of HTTP digest (MD5; with qop=auth or, as RFC 2069 has it, without). `stale`: the nonce is not valid any
     /// more, so the client may try again with a new one.
     std::string checkDigest(std::string_view authorization, std::string_view method, std::string_view target,
@@ -33,15 +34,13 @@ class Accounts {
         std::string ha1;           ///< of name, realm and password, for digest
         std::string verified;      ///< proof of the header accepted last, so that it is derived once
     };
-    struct Nonce {
-        Clock::time_point made;
-        std::set<uint32_t> counters; ///< that have been used
-    };
-    void dropOldNonces();
+    bool mayTry();
 
     std::map<std::string, User, std::less<>> users_;
-    std::map<std::string, Nonce, std::less<>> nonces_;
+    DigestGuard digest_;
     std::string key_; ///< of the proofs
+    Clock::time_point triesBegan_;
+    int tries_ = 0; ///< within a second
 };
 
 } // namespace rapidc::rws

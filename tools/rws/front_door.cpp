@@ -29,6 +29,17 @@ bool hasFreeForm(const std::string& path) {
     return isLogout(path) || rapid::config::sameName(std::string_view(path).substr(0, kFiles.size()), kFiles);
 }
 
+/// A handler may throw when it meets what it did not expect: the request is refused, the controller lives on.
+Reply callHandler(const Handler& handler, const Request& request) {
+    try {
+        return handler(request);
+    } catch (const std::exception& problem) {
+        fmt::print(stderr, "rapidc serve: {}: {}\n", request.path, problem.what());
+        return Reply::refuse(ReturnCode::Rejected, fmt::format("the request failed: {}", problem.what()),
+                             400);
+    }
+}
+
 } // namespace
 
 /// One dialect, as the HTTP server sees it.
@@ -111,7 +122,10 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
     visit.path = std::move(target->path);
     visit.segments = std::move(target->segments);
     visit.query = std::move(target->query);
-    const bool changes = head.method != "GET" || head.asksForSocket();
+    const bool hasAction = std::any_of(visit.query.begin(), visit.query.end(), [](const auto& field) {
+        return rapid::config::sameName(field.first, "action");
+    });
+    const bool changes = head.method != "GET" || head.asksForSocket() || hasAction || isLogout(visit.path);
     if (changes && !http::hasOwnOrigin(head))
         return refuse(403, "pages of other servers may not change anything here");
     if (!methodOf(head.method))
@@ -142,11 +156,14 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
             http::Response response = challenge(dialect, false);
             return response;
         }
-        bool stale = false;
+        bool stale = false, isBusy = false;
         const std::string_view authorization = head.header("authorization");
         const std::string user = dialect == Dialect::V1
                                      ? accounts_.checkDigest(authorization, head.method, head.target, stale)
-                                     : accounts_.checkBasic(authorization);
+                                     : accounts_.checkBasic(authorization, isBusy);
+        if (isBusy)
+            return errorResponse(503, "too many wrong passwords at a time: try again", Form::Xhtml,
+                                 contextOf(dialect, head, visit.path));
         if (user.empty()) return challenge(dialect, stale);
         session = sessions_.ofConnection(head.connection, user);
         if (session == nullptr) {
@@ -190,6 +207,11 @@ void FrontDoor::handle(Dialect dialect, http::Request& from, const http::Respond
         return respond(std::move(response));
     }
     const Router::Match match = router_.find(request);
+    if (match.route == nullptr && match.methodKnown) {
+        const Reply reply = Reply::refuse(ReturnCode::BadParameter,
+                                          fmt::format("there is no action '{}' here", request.action));
+        return respond(withHeaders(responseTo(reply, form, context), visit->cookies));
+    }
     if (match.route == nullptr) {
         Reply reply =
             Reply::refuse(ReturnCode::NotFound, fmt::format("there is no resource {}", request.path),
@@ -213,7 +235,11 @@ std::optional<http::Response> FrontDoor::complete(Dialect dialect, http::Request
         if (dialect == Dialect::V1 && name == "action") request.action = value;
         request.query.add(name, value);
     }
-    const bool isForm = request.method != Method::Put && !from.body.empty();
+    // PUT brings a form or the bytes of a file.
+    const bool isFile =
+        request.method == Method::Put &&
+        (hasFreeForm(request.path) || request.contentType != "application/x-www-form-urlencoded");
+    const bool isForm = !isFile && !from.body.empty();
     if (isForm) {
         const auto fields = http::parseFields(from.body);
         if (!fields)
@@ -230,7 +256,7 @@ void FrontDoor::execute(const Route& route, Request request, const std::shared_p
                         const http::Respond& respond) {
     auto work = [&route, request = std::move(request), visit, respond] {
         const RenderContext context{request.dialect, request.base, request.path};
-        Reply reply = route.handler(request);
+        Reply reply = callHandler(route.handler, request);
         if (!visit->form && reply.document) // of a folder: its form matters
             reply = Reply::refuse(
                 ReturnCode::BadParameter,

@@ -92,9 +92,14 @@ std::string xmlText(std::string_view text) {
 }
 
 std::string baseFolder(std::string_view path) {
-    for (const std::string_view folder : {"/rw/rapid/", "/rw/mastership/", "/rw/"})
-        if (path.substr(0, folder.size()) == folder) return std::string(folder);
-    return "/";
+    const auto isIn = [&](std::string_view root) {
+        return path.substr(0, root.size()) == root &&
+               (path.size() == root.size() || path[root.size()] == '/');
+    };
+    for (const std::string_view root : {"/rw/mastership", "/users", "/uas"})
+        if (isIn(root)) return std::string(root) + "/";
+    if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
+    return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
 }
 
 std::string contentTypeOf(Form form, Dialect dialect) {
@@ -124,7 +129,8 @@ std::string renderXhtmlFailure(const Failure& failure, const RenderContext& cont
 
 std::string renderEvent(const Entry& entry, std::string_view href, std::string_view base) {
     Entry event = entry;
-    event.self = href;
+    event.self.clear();
+    event.links.emplace_back("self", href); // after the others: some clients read the first anchor
     return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
 }
 

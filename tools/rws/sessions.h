@@ -18,8 +18,9 @@ class Sessions {
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kMost = 70;
     static constexpr std::chrono::minutes kIdleTime{5};
-    /// Requests that a session may send within a second before some are refused.
-    static constexpr int kMostPerSecond = 900;
+    /// Requests in a second of the clock before some are refused. A session may send 300 in any second, and 1,000 are too many also when
+    /// two seconds of the clock share them.
+    static constexpr int kMostPerSecond = 450;
 
     /// `ended`: called with the number of each session that ends.
     explicit Sessions(std::function<void(uint64_t)> ended) : ended_(std::move(ended)) {}

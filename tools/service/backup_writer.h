@@ -29,11 +29,11 @@ struct BackupContent {
         std::vector<std::string> opaqueFiles; ///< encrypted modules of the backup that was loaded, paths
     };
     std::vector<Task> tasks;
-    std::vector<Module> shared; ///< installed once for all tasks: TASK0
+    std::vector<Module> shared;                                  ///< installed once for all tasks: TASK0
     std::vector<std::pair<std::string, std::string>> parameters; ///< files of SYSPAR: name, bytes
     SystemFacts system;
     RobotWareVersion robotWare;
-    std::string homeFolder; ///< on the host
+    std::string homeFolder;  ///< on the host
     bool namesRobot = false; ///< MOC.cfg has it
     int64_t calendarSeconds = 0;
 };

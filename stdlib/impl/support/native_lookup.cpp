@@ -1,3 +1,4 @@
+#include "runtime/abi/interpreted.h"
 #include "runtime/abi/support_natives.h"
 #include "stdlib/native_table.h"
 
@@ -12,6 +13,7 @@ std::span<const SupportEntry> supportTable() {
 #define SUPPORT_VALUE(symbol, ...) {#symbol, reinterpret_cast<void*>(&symbol)},
 #define RUNTIME_FUNCTION(symbol) {#symbol, reinterpret_cast<void*>(&symbol)},
 #include "runtime/abi/support_natives.def"
+        {"rt_interpret", reinterpret_cast<void*>(&rt_interpret)},
     };
     return table;
 }

@@ -1,0 +1,137 @@
+"""The event log (contract 18, 24, 26, 30, 41; facts 7)."""
+
+from serve_testing import ServeCase, main
+
+MODULE = """MODULE MainModule
+  PERS num wanted := 0;
+  PROC main()
+    VAR num written := 0;
+    ErrWrite\\W, "First warning", "The text of it" \\RL2:="more of it";
+    WHILE TRUE DO
+      WaitUntil written < wanted;
+      written := written + 1;
+      ErrWrite\\I, "Message " + ValToStr(written), "Number " + ValToStr(written);
+    ENDWHILE
+  ENDPROC
+ENDMODULE
+"""
+
+
+class EventLog(ServeCase):
+    MODULE = MODULE
+    written = 0
+
+    def numbers(self, response):
+        return [int(entry.title.rsplit("/", 1)[1]) for entry in response.entries("elog-message-li")]
+
+    def write(self, client, count):
+        """Lets the program write so many more messages of domain 8."""
+        cls = type(self)
+        before = self.all(client, 8)
+        cls.written += count
+        if client.dialect == 1:
+            done = client.post("/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/wanted?action=set", {"value": cls.written})
+        else:
+            client.post("/rw/mastership/edit/request")
+            done = client.post("/rw/rapid/symbol/RAPID/T_ROB1/MainModule/wanted/data", {"value": cls.written})
+            client.post("/rw/mastership/edit/release")
+        self.assertEqual(done.status, 204)
+        last = f"Message {cls.written}"
+        self.eventually(lambda: any(entry.values["title"] == last for entry in
+                                    self.client(1).get("/rw/elog/8?limit=5").entries()), 20)
+        return before
+
+    def all(self, client, domain, query=""):
+        numbers, path = [], f"/rw/elog/{domain}?lang=en{query}"
+        while path:
+            response = client.get(path)
+            self.assertEqual(response.status, 200)
+            self.assertLessEqual(len(response.entries()), 50)
+            numbers += self.numbers(response)
+            following = response.links().get("next")
+            path = following.replace("&amp;", "&") if following else None
+        return numbers
+
+    def test_domains(self):
+        """Facts 7: the domains; li elog-domain-li with domain-name, numevts and buffsize 1000."""
+        for client in self.both():
+            domains = {entry.title.rsplit("/", 1)[-1]: entry.values for entry in client.get("/rw/elog").entries("elog-domain-li")}
+            self.assertLessEqual({"0", "1", "2", "3", "4", "5", "7", "8", "9", "11", "12"}, set(domains))
+            self.assertEqual(domains["0"]["buffsize"], "1000")
+            count = sum(len(client.get(f"/rw/elog/{domain}").entries()) for domain in (4, 9))
+            self.assertEqual(count, int(domains["4"]["numevts"]) + int(domains["9"]["numevts"]))
+
+    def test_a_message(self):
+        """Facts 7: the values of a message; line 30: its title ends in its number."""
+        for client in self.both():
+            entry = next(entry for entry in self.eventually(lambda: client.get("/rw/elog/8?lang=en&order=fifo").entries())
+                         if entry.values["title"] == "First warning")
+            values = entry.values
+            self.assertEqual((values["msgtype"], int(values["code"]) // 10000), ("2", 8))
+            self.assertRegex(values["tstamp"], r"^\d{4}-\d\d-\d\d T \d\d:\d\d:\d\d$")
+            self.assertIn("The text of it", values["desc"])
+            for name in ("conseqs", "causes", "actions", "argc"):
+                self.assertIn(name, values)
+            number = entry.title.rsplit("/", 1)[1]
+            for path in (f"/rw/elog/8/{number}", f"/rw/elog/0/{number}", f"/rw/elog/seqnum/{number}"):
+                one = client.get(path + "?lang=en").values("elog-message")
+                self.assertEqual((one["title"], one["code"]), ("First warning", values["code"]))
+            self.assertEqual(client.get("/rw/elog/8/999999").status, 404)
+            self.assertEqual(client.get(f"/rw/elog/4/{number}").status, 404)
+            self.assertEqual(client.get("/rw/elog/99").status, 404)
+
+    def test_order_and_pages(self):
+        """Lines 24 and 30: pages of 50; 1.0 lists the newest first, 2.0 the oldest unless order=lifo; numbers grow by one over all."""
+        one, two = self.client(1), self.client(2)
+        self.write(one, 70)
+        first, second = self.all(one, 0), self.all(two, 0)
+        self.assertEqual(first, sorted(first, reverse=True))
+        self.assertEqual(second, sorted(first))
+        self.assertEqual(second, list(range(second[0], second[0] + len(second))))
+        lifo = two.get("/rw/elog/0?order=lifo", headers={"Accept": "application/xhtml+xml;v=2.1"})
+        self.assertEqual((lifo.status, self.numbers(lifo)), (200, first[:50]))
+        self.assertTrue(lifo.header("content-type").startswith("application/xhtml+xml"))
+        self.assertEqual(self.numbers(one.get("/rw/elog/0?limit=3")), first[:3])
+        self.assertEqual(self.numbers(one.get("/rw/elog/0?start=2&limit=3")), first[2:5])
+        self.assertEqual(one.get("/rw/elog/0?order=odd").status, 400)
+        self.assertEqual(len(two.get("/rw/elog/8").json()["_embedded"]["resources"]), 50)
+
+    def test_arguments(self):
+        """Line 33: 10125 has arguments; facts 7: argc and argv, typed. The task is among them."""
+        client = self.client(1, form="json")
+        self.assertEqual(client.post("/rw/rapid/execution?action=stop", {"stopmode": "stop"}).status, 204)
+        self.addCleanup(client.post, "/rw/rapid/execution?action=start",
+                        {"regain": "continue", "execmode": "continue", "cycle": "forever", "condition": "none", "stopatbp": "disabled"})
+        found = lambda: [state for state in client.get("/rw/elog/1?lang=en").json()["_embedded"]["_state"]  # noqa: E731
+                         if state["code"] == "10125"]
+        message = self.eventually(found)[0]
+        self.assertEqual(int(message["argc"]), len(message["argv"]))
+        self.assertIn({"type": "string", "value": "T_ROB1"},
+                      [{"type": each["type"], "value": each["value"]} for each in message["argv"]])
+
+    def test_subscription(self):
+        """Line 41: elog/0; an event has the number and a link, below 1 KiB."""
+        for client in self.both():
+            response = client.subscribe(("/rw/elog/8", 1))
+            self.assertEqual(response.status, 201)
+            socket = self.socket(client, response)
+            self.write(client, 1)
+            event = socket.event()
+            self.assertEqual(event.type, "elog-message-ev")
+            number = event.values["seqnum"]
+            self.assertEqual(client.get(f"/rw/elog/8/{number}").values()["title"], f"Message {type(self).written}")
+
+    def test_clear(self):
+        """Facts 2.3: clear, clearall."""
+        one, two = self.client(1), self.client(2)
+        self.write(one, 2)
+        self.assertEqual(one.act("/rw/elog/8", "clear").status, 204)
+        self.assertEqual(self.all(two, 8), [])
+        self.write(two, 2)
+        self.assertEqual(len(self.all(two, 8)), 2)
+        self.assertEqual(two.act("/rw/elog", "clearall").status, 204)
+        self.assertEqual(self.all(one, 0), [])
+
+
+if __name__ == "__main__":
+    main()
