@@ -22,7 +22,7 @@ struct UdpDevice {
 /// A service of the Controller.
 class UdpDevices {
   public:
-    /// The socket of this device, for one session at a time (another one gets a socket of its own). What came before is dropped.
+    /// The socket of this device, for one session at a time (another one gets a socket of its own). Earlier datagrams are dropped.
     /// `why`: its port cannot be used; "" otherwise.
     std::shared_ptr<net::Socket> take(net::Network& network, const Task& owner, const UdpDevice& device,
                                       std::string& why);
