@@ -1,9 +1,10 @@
 """The web page's port: files, security, and the WebSocket protocol of docs/pendant.md. "N" = line N of the serve contract."""
 
 import contextlib
+import time
 
 from pendant_client import Pendant, PendantError
-from serve_testing import ServeCase, main
+from serve_testing import SLOW, Serve, ServeCase, main
 
 MODULE = """MODULE MainModule
   PERS tooldata tGripper := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
@@ -212,6 +213,38 @@ class Messages(PendantCase):
         for page in pages:
             page.close()
         self.eventually(lambda: self.connect(hello=False).status == 101)
+
+
+class Load(PendantCase):
+    def test_reader_that_does_not_read(self):  # 45: it costs others nothing, and its queue is bounded
+        slow = self.connect()
+        slow.socket.raw.socket.settimeout(20)
+        frames = 0
+        with contextlib.suppress(ConnectionError, TimeoutError):
+            for frames in range(30_000):
+                slow.send("state")
+                if frames % 1000 == 0:
+                    begun = time.monotonic()
+                    self.assertIn("panel", self.page.call("state"))
+                    self.assertLess(time.monotonic() - begun, 2)
+        self.assertLess(self.memory(), 400 * 1024)  # kB: 30,000 answers alone would be more than 100 MB on top
+        self.assertIn("panel", self.page.call("state"))
+        with contextlib.suppress(ConnectionError, TimeoutError):
+            while slow.take() is not None:  # what was sent before the socket was cut off
+                pass
+
+    def memory(self):
+        """Resident memory of the server, kB."""
+        with open(f"/proc/{self.server.process.pid}/status", encoding="ascii") as status:
+            return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+
+    def test_ends_while_pages_listen(self):  # 3
+        self.page.call("signals.subscribe", all=True)
+        self.page.call("run.start")
+        self.page.wait("motion")
+        status = self.server.stop(seconds=2 * SLOW)
+        self.assertEqual(status, 143)
+        type(self).server = Serve(f"{self.folder}/inputs", options=(f"--home={self.home}", *self.OPTIONS))
 
 
 class Panel(PendantCase):
@@ -511,7 +544,7 @@ class Operator(PendantCase):
         self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
         self.page.call("data.write", path="T_ROB1/MainModule/count", value="4711")
         self.page.call("run.start")
-        self.page.wait("display", lambda data: data["lines"][-1] == "4711")
+        self.page.wait("display", lambda data: data.get("line") == "4711")
         self.assertIn("4711", self.page.call("display.read")["lines"])
 
     def test_events(self):
