@@ -107,7 +107,10 @@ class Files(ServeCase):
             for path in ("/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/a/../../secret.txt", "/link.txt",
                          "/outside/secret.txt", "/..%5csecret.txt", "/%2e%2e%2fsecret.txt", "/a%00/../../secret.txt",
                          "/..;/secret.txt", "//../secret.txt", "/.%2e/secret.txt"):
-                for response in (client.get(home + path), client.put(home + path, "x", headers=plain), client.delete(home + path)):
+                requests = [client.get(home + path), client.put(home + path, "x", headers=plain)]
+                if path != "/link.txt":  # DELETE takes away the link itself
+                    requests.append(client.delete(home + path))
+                for response in requests:
                     self.assertEqual(response.status // 100, 4, (path, response))
                     self.assertNotIn(b"secret\n", response.body)
             for name in ("../x", "..", ".", "a/b", "", "a\\b", "x\0y", "/etc/x"):
@@ -175,6 +178,7 @@ class Killed(ServeCase):
             self.assertEqual(client.put(f"/fileservice/HOME/f{number}", data, headers=kind).status, 201)
         client.disconnect()
         server.stop(signal.SIGKILL)
+        server.errors.close()
         self.assertEqual(sorted(os.listdir(other)), ["f0", "f1", "f2"])
         for number in range(3):
             with open(os.path.join(other, f"f{number}"), "rb") as file:

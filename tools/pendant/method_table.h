@@ -12,6 +12,8 @@ namespace rapidc::service {
 class VirtualController;
 class EventJournal;
 class ManualMotion;
+class ConfigurationStore;
+class FileVolumes;
 } // namespace rapidc::service
 
 namespace rapidc::pendant {
@@ -21,25 +23,40 @@ class Hub;
 
 /// Answers a request of a client, on the controller's thread; short. Throws RequestError.
 using Method = std::function<Json(Client& client, const Json& params)>;
+/// The second half of a method that waits for the disk: on a worker thread, away from the controller.
+using DiskWork = std::function<Json()>;
+/// The first half, on the controller's thread.
+using DiskMethod = std::function<DiskWork(Client& client, const Json& params)>;
 
 class MethodTable {
   public:
-    void add(const char* name, Method method) { methods_[name] = std::move(method); }
+    struct Entry {
+        Method method;
+        DiskMethod diskMethod; ///< one of the two
+    };
+    void add(const char* name, Method method) { methods_[name] = {std::move(method), {}}; }
+    void addOnDisk(const char* name, DiskMethod method) { methods_[name] = {{}, std::move(method)}; }
     /// Null when there is none.
-    const Method* find(const std::string& name) const {
+    const Entry* find(const std::string& name) const {
         const auto found = methods_.find(name);
         return found == methods_.end() ? nullptr : &found->second;
     }
 
   private:
-    std::map<std::string, Method> methods_;
+    std::map<std::string, Entry> methods_;
 };
 
-/// What the methods work with; all of it outlives them.
-struct Context {
-    service::VirtualController& controller;
+/// What pages show and change; all of it outlives them.
+struct Shared {
+    service::VirtualController& controller; ///< opened
     service::EventJournal& journal;
     service::ManualMotion& manual;
+    const service::ConfigurationStore& configuration;
+    const service::FileVolumes& volumes;
+};
+
+/// What the methods work with.
+struct Context : Shared {
     Hub& hub;
 };
 

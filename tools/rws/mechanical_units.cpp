@@ -54,13 +54,27 @@ std::size_t axesOf(const rt::MechanicalUnit& unit) {
 
 } // namespace
 
+/// The path names the unit, else the field mechunit (RWS 1.0), else it is the first one.
+const rt::MechanicalUnit* MechanicalUnits::unitOf(const Request& request) const {
+    std::string name = request.parameter("unit");
+    for (const char* field : {"mechunit", "mechunit-name"})
+        if (name.empty()) name = fieldOf(request, field);
+    if (name.empty()) name = jogUnit_;
+    const auto& all = controller_.core().units().all();
+    return name.empty() && !all.empty() ? all.front().get() : manual_.unit(name);
+}
+
+Reply MechanicalUnits::noUnit(const Request& request) {
+    const std::string name = request.parameter("unit");
+    if (!name.empty())
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", name));
+    return badParameter("mechunit", "the name of a mechanical unit");
+}
+
 Handler MechanicalUnits::forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&) const) const {
     return [this, handler](const Request& request) {
-        const Unit* unit = manual_.unit(request.parameter("unit"));
-        if (unit == nullptr)
-            return Reply::refuse(ReturnCode::NotFound,
-                                 fmt::format("there is no mechanical unit {}", request.parameter("unit")));
-        return (this->*handler)(request, *unit);
+        const Unit* unit = unitOf(request);
+        return unit == nullptr ? noUnit(request) : (this->*handler)(request, *unit);
     };
 }
 
@@ -297,6 +311,8 @@ void MechanicalUnits::addMotionSystem(Router& router) {
         document.add("ms-nonmotionexecution", "nonmotionexecution").value("mode", "OFF");
         return Reply::of(std::move(document));
     });
+    router.get(Dialect::V1, all + "/motionsupervision", forUnit(&MechanicalUnits::motionSupervision));
+    router.get(Dialect::V1, all + "/pathsupervision", forUnit(&MechanicalUnits::pathSupervision));
     router.get(Dialect::V2, all + "/collisionprediction", [](const Request&) {
         Document document;
         document.add("ms-collision-prediction-mode", "collisionprediction")

@@ -35,6 +35,7 @@ System::System(service::VirtualController& controller, const service::FileVolume
     observer.changed = [this](service::Change change, const rt::Task*) {
         if (change != service::Change::Generation) return;
         ++restarts_;
+        facts_.reset();
         rt::Controller& core = controller_.core();
         core.setCalendarSeconds(core.calendarSeconds() + clockOffset_);
     };
@@ -45,13 +46,18 @@ System::~System() {
     controller_.observers().remove(token_);
 }
 
+const service::SystemFacts& System::facts() const {
+    if (!facts_) facts_ = service::systemFacts(controller_);
+    return *facts_;
+}
+
 // ---- /rw/system ----------------------------------------------------------------------------------------------------
 
 Reply System::system(const Request& request) const {
     const bool isFirst = request.dialect == Dialect::V1;
     const service::RobotWareVersion version =
         service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
-    const service::SystemFacts facts = service::systemFacts(controller_);
+    const service::SystemFacts& facts = this->facts();
     Document document;
     Entry& entry = document.add(isFirst ? "sys-system-li" : "sys-system", "system");
     entry.value("major", fmt::format("{}", version.major)).value("minor", fmt::format("{}", version.minor));
@@ -82,7 +88,7 @@ Reply System::system(const Request& request) const {
 
 Reply System::options(const Request&) const {
     Document document;
-    for (const std::string& option : service::systemFacts(controller_).options)
+    for (const std::string& option : facts().options)
         document.add("sys-option-li", option).value("option", option);
     return Reply::of(std::move(document));
 }
@@ -122,7 +128,7 @@ void System::addSystem(Router& router) {
         return one("sys-license-info", "license", "license", "virtual controller");
     });
     router.getBoth("/rw/system/robottype", [this](const Request&) {
-        return one("sys-robottype", "robottype", "robot-type", service::systemFacts(controller_).robotType);
+        return one("sys-robottype", "robottype", "robot-type", facts().robotType);
     });
     router.getBoth("/rw/retcode", [this](const Request& r) { return returnCode(r); });
 }
@@ -130,7 +136,7 @@ void System::addSystem(Router& router) {
 // ---- /ctrl ---------------------------------------------------------------------------------------------------------
 
 Reply System::identity(const Request&, Document::Place place) const {
-    const service::SystemFacts facts = service::systemFacts(controller_);
+    const service::SystemFacts& facts = this->facts();
     Document document;
     document.place = place;
     Entry& entry = document.add("ctrl-identity-info", "identity");
@@ -181,6 +187,7 @@ Reply System::setClock(const Request& request) {
     rt::Controller& core = controller_.core();
     clockOffset_ += seconds - core.calendarSeconds();
     core.setCalendarSeconds(seconds);
+    facts_.reset();
     return Reply::done();
 }
 

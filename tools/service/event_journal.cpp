@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <set>
 
 namespace rapidc::service {
 
@@ -95,10 +96,9 @@ void EventJournal::take(const rt::Event& event) {
                            event.errorName.empty() ? fmt::format("Error {}", event.errorNumber)
                                                    : event.errorName,
                            controller_.core().log().errorText(event.errorNumber)));
-    for (const int domain : {0, message->domain()}) {
+    std::set<int> domains{0, message->domain()};
+    for (const int domain : domains) {
         Messages& messages = byDomain_[domain];
-        if (domain == 0 && message->domain() == 0 && !messages.empty() && messages.back() == message)
-            continue;
         messages.push_back(message);
         if (messages.size() > kKept) messages.pop_front();
     }

@@ -15,6 +15,7 @@ mkdirSync(folder, { recursive: true });
 await build({
     entryPoints: { app: join(here, "src/main.ts"), style: join(here, "styles/main.css") },
     outdir: folder,
+    external: ["icon.svg"],
     bundle: true,
     format: "esm",
     target: ["chrome105", "firefox110", "safari16"],

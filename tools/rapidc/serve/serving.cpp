@@ -13,7 +13,10 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
     : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
       subscriptions_(
           subscribables_, [this](std::function<void()> work) { controller_.post(std::move(work)); },
-          [this](std::function<void()> work) { server_.post(std::move(work)); }) {
+          [this](std::function<void()> work) { server_.post(std::move(work)); }),
+      pendant_(
+          {controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
+          {.password = settings.password, .address = settings.address}) {
     rws::addFolders(router_); // first: services may describe their folder themselves
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
@@ -61,12 +64,17 @@ std::string Serving::open() {
                           .tls = identity,
                           .service = &door_->service(rws::Dialect::V2)},
                          httpsPort_);
+    if (problem.empty())
+        problem = listen("--web-port", {.address = address, .port = settings_.webPort, .service = &pendant_},
+                         webPort_);
+    pendant_.setPort(webPort_);
     return problem;
 }
 
 void Serving::start() {
     server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
     server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
+    server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
     const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
     subscriptions_.setBase(rws::Dialect::V1, fmt::format("http://{}:{}", host, httpPort_));
     subscriptions_.setBase(rws::Dialect::V2, fmt::format("https://{}:{}", host, httpsPort_));

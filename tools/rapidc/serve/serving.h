@@ -2,6 +2,7 @@
 // Serving: everything between the network and a controller: Robot Web Services in both dialects, and the web page.
 
 #include "tools/http/server.h"
+#include "tools/pendant/pendant_service.h"
 #include "tools/rapidc/serve/serve_settings.h"
 #include "tools/rws/front_door.h"
 #include "tools/rws/plant_services.h"
@@ -38,6 +39,7 @@ class Serving {
     rws::PlantServices plant_;
     rws::Subscriptions subscriptions_;
     std::unique_ptr<rws::FrontDoor> door_;
+    pendant::PendantService pendant_;
     http::Server server_; ///< last: it ends first
     uint16_t httpPort_ = 0, httpsPort_ = 0, webPort_ = 0;
 };

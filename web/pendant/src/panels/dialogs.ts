@@ -1,0 +1,99 @@
+import type { Model } from "../api/model";
+import type { Dialog } from "../api/protocol";
+import { button } from "../ui/controls";
+import { h, replaceChildren, uniqueId } from "../ui/dom";
+import { icon, type IconName } from "../ui/icons";
+import { attempt, notice } from "../ui/notices";
+
+const icons: Record<string, IconName> = { warning: "events", error: "events", question: "display" };
+
+/** Questions of the program (UIMsgBox, TPReadFK ...) as a card over the page; the rest stays usable, as on a real pendant. */
+export class DialogLayer {
+    readonly element = h("div", { class: "dialogs", attrs: { "aria-live": "assertive" } });
+    private readonly cards = new Map<number, HTMLElement>();
+
+    constructor(private readonly model: Model) {
+        model.on("all", (state) => this.show(state.dialogs));
+        model.on("dialogs", (dialogs) => this.show(dialogs));
+    }
+
+    private show(dialogs: Dialog[]): void {
+        for (const [id, card] of this.cards) {
+            if (dialogs.some((dialog) => dialog.id === id)) continue;
+            card.remove();
+            this.cards.delete(id);
+        }
+        for (const dialog of dialogs) {
+            if (this.cards.has(dialog.id)) continue;
+            const card = this.card(dialog);
+            this.cards.set(dialog.id, card);
+            this.element.append(card);
+            card.querySelector<HTMLElement>("input, .list-item, .dialog-buttons button")?.focus();
+        }
+    }
+
+    private card(dialog: Dialog): HTMLElement {
+        const title = uniqueId("dialog");
+        const body = h("div", { class: "dialog-body" }, ...dialog.lines.map((text) => h("p", { text })));
+        const buttons = h("div", { class: "dialog-buttons" });
+        this.fill(dialog, body, buttons);
+        const kind = dialog.icon.toLowerCase();
+        return h(
+            "section",
+            { class: `dialog dialog-${kind}`, attrs: { role: "dialog", "aria-labelledby": title } },
+            h("header", { class: "dialog-head" }, icon(icons[kind] ?? "display"), h("h2", { text: dialog.header || dialog.instruction, attrs: { id: title } }), h("span", { class: "muted", text: dialog.task })),
+            body,
+            buttons,
+        );
+    }
+
+    private fill(dialog: Dialog, body: HTMLElement, buttons: HTMLElement): void {
+        const choices = dialog.choices.map((label, index) => ({ label, choice: index + 1 })).filter(({ label }) => label !== "");
+        const choose = choices.map(({ label, choice }, index) =>
+            button({ label, class: index === 0 ? "primary" : "", onClick: () => this.answer(dialog, { choice }) }),
+        );
+        if (dialog.kind === "number" || dialog.kind === "text") {
+            this.fillInput(dialog, body, buttons);
+            return;
+        }
+        if (dialog.kind === "list") {
+            const items = dialog.items.map((text, index) => h("button", { class: "list-item", text, attrs: { type: "button" }, on: { click: () => this.answer(dialog, { item: index + 1 }) } }));
+            body.append(h("div", { class: "dialog-list" }, ...items));
+        }
+        if (choose.length > 0) replaceChildren(buttons, ...choose);
+        else if (dialog.kind === "message") buttons.hidden = true;
+    }
+
+    private fillInput(dialog: Dialog, body: HTMLElement, buttons: HTMLElement): void {
+        const numeric = dialog.kind === "number";
+        const input = h("input", {
+            class: "input large",
+            attrs: {
+                type: numeric ? "number" : "text",
+                inputmode: numeric ? "decimal" : "text",
+                step: numeric ? (dialog.wholeNumbers ? 1 : "any") : undefined,
+                min: dialog.minimum,
+                max: dialog.maximum,
+                maxlength: numeric ? undefined : 80,
+                "aria-label": dialog.lines[dialog.lines.length - 1] ?? dialog.header,
+            },
+        });
+        input.value = dialog.initial;
+        const send = (): void => {
+            if (numeric && (input.value === "" || !input.checkValidity())) {
+                notice("warning", input.validationMessage || "Enter a number");
+                return;
+            }
+            this.answer(dialog, numeric ? { number: Number(input.value) } : { text: input.value });
+        };
+        input.addEventListener("keydown", (event) => event.key === "Enter" && send());
+        const limits = numeric && dialog.minimum !== undefined && dialog.maximum !== undefined && Math.abs(dialog.maximum) < 1e30;
+        body.append(input);
+        if (limits) body.append(h("p", { class: "muted", text: `${dialog.minimum} to ${dialog.maximum}${dialog.wholeNumbers ? ", whole numbers" : ""}` }));
+        buttons.append(button({ label: "OK", class: "primary", onClick: send }));
+    }
+
+    private answer(dialog: Dialog, answer: object): void {
+        attempt(() => this.model.connection.request("dialogs.answer", { id: dialog.id, ...answer }));
+    }
+}
