@@ -4,7 +4,7 @@ import { openPage } from "./browser.mjs";
 
 /** Asks again until it holds. */
 async function until(condition, what) {
-    for (let i = 0; i < 60; ++i) {
+    for (let i = 0; i < 200; ++i) {
         if (await condition()) return [];
         await new Promise((done) => setTimeout(done, 50));
     }
@@ -92,7 +92,7 @@ export async function panelChecks(browser, address, controller, report) {
     for (const [name, check] of Object.entries(checks)) {
         controller.reset();
         const { page, end } = await openPage(browser, address, controller);
-        page.setDefaultTimeout(5000);
+        page.setDefaultTimeout(20_000);
         let problems;
         try {
             problems = await check({ page, controller });

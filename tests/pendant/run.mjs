@@ -29,6 +29,7 @@ async function looks(browser, address, controller) {
             const { page, end } = await openPage(browser, address, controller, { size, scheme });
             controller.flood(300);
             controller.setRunning(false);
+            await page.waitForTimeout(1500); // the fine picture of a robot at rest
             for (const panel of panels) {
                 await page.locator(`#tab-${panel}`).click();
                 await page.waitForTimeout(250);

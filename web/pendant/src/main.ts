@@ -15,4 +15,6 @@ connection.onReady = (hello) => {
     shell.showProduct(hello.product);
     model.load().catch(showError);
 };
+// for measurements: the tests and anyone at the console
+Object.assign(window, { rapidcStatistics: () => shell.statistics });
 connection.open();

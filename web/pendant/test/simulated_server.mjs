@@ -195,7 +195,9 @@ export function start(folder, port = 0, tick = 16) {
             response.writeHead(404).end();
         }
     });
+    const sockets = new Set();
     server.on("upgrade", (request, socket) => {
+        sockets.add(socket);
         let send;
         send = accept(request, socket, (text) => answer(model, JSON.parse(text), send, pages), () => pages.delete(send));
     });
@@ -204,6 +206,7 @@ export function start(folder, port = 0, tick = 16) {
         server.listen(port, "127.0.0.1", () => done({
             port: server.address().port,
             cell: model,
+            drop: () => { for (const socket of sockets) socket.destroy(); },
             close: () => { clearInterval(timer); server.closeAllConnections(); server.close(); },
         }));
     });

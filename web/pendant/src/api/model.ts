@@ -1,5 +1,5 @@
 import type { Connection } from "./connection";
-import type { Dialog, LogEvent, Motion, Notifications, State, Task, Unit, UnitPosition, Zone } from "./protocol";
+import type { Dialog, LogEvent, Motion, Notifications, Signal, State, Task, Unit, UnitPosition, Zone } from "./protocol";
 
 /** What changed in the model. "all": everything is new. */
 interface Changes {
@@ -11,6 +11,8 @@ interface Changes {
     event: LogEvent;
     display: string[];
     dialogs: Dialog[];
+    /** all signals, after "all" */
+    signals: Signal[];
     signal: Notifications["signal"];
     data: Notifications["data"];
     frames: Unit;
@@ -51,9 +53,11 @@ export class Model {
         const moved: Motion["units"] = [];
         for (const position of units) {
             const index = state.units.findIndex((unit) => unit.name === position.unit);
-            if (index >= 0) moved.push([index, position.joints, position.external, position.world, position.flange, 0, 0]);
+            if (index >= 0 && !this.positions[index]) moved.push([index, position.joints, position.external, position.world, position.flange, 0, 0]);
         }
-        this.takeMotion({ t: state.time.t, units: moved });
+        this.takeMotion({ t: Math.max(state.time.t, this.lastTime), units: moved });
+        const { signals } = await this.connection.request<{ signals: Signal[] }>("signals.subscribe", { all: true });
+        this.emit("signals", signals);
     }
 
     task(name: string): Task | undefined {

@@ -1,6 +1,6 @@
 import type { Model } from "../api/model";
 import type { ModuleInfo } from "../api/protocol";
-import { button, emptyState, field, select, setOptions } from "../ui/controls";
+import { button, emptyState, select, setOptions } from "../ui/controls";
 import { h, replaceChildren, setText } from "../ui/dom";
 import { icon } from "../ui/icons";
 import { attempt, notice } from "../ui/notices";
@@ -49,14 +49,14 @@ export class FilesPanel {
                 h(
                     "div",
                     { class: "cards" },
-                    card("Backup", field("Name", this.backupName), button({ icon: "archive", label: "Create", class: "primary", onClick: act(() => this.backup()) })),
+                    card("Backup", this.backupName, button({ icon: "archive", label: "Create", class: "primary", onClick: act(() => this.backup()) })),
                     card(
                         "Module",
-                        field("Module", this.moduleChoice),
+                        this.moduleChoice,
                         button({ icon: "save", label: "Save", onClick: act(() => this.saveModule()) }),
                         button({ icon: "trash", label: "Unload", onClick: act(() => this.unloadModule()) }),
                     ),
-                    card("Program", field("Folder", this.programFolder), button({ icon: "save", label: "Save", onClick: act(() => this.saveProgram()) })),
+                    card("Program", this.programFolder, button({ icon: "save", label: "Save", onClick: act(() => this.saveProgram()) })),
                     card(
                         "Controller",
                         button({ icon: "refresh", label: "Warm restart", onClick: () => this.restart("warm") }),

@@ -50,7 +50,7 @@ export class SignalsPanel {
             h("div", { class: "scroll" }, this.list),
             h("div", { class: "panel-foot" }, this.count),
         );
-        model.on("all", () => attempt(() => this.load()));
+        model.on("signals", (signals) => this.load(signals));
         model.on("signal", (changes) => this.update(changes));
     }
 
@@ -58,8 +58,7 @@ export class SignalsPanel {
         if (visible) this.render();
     }
 
-    private async load(): Promise<void> {
-        const { signals } = await this.model.connection.request<{ signals: Signal[] }>("signals.subscribe", { all: true });
+    private load(signals: Signal[]): void {
         this.signals.clear();
         for (const signal of signals) this.signals.set(signal.name, signal);
         this.render();

@@ -39,6 +39,7 @@ export class Recorder {
     private count = 0;
     private changes = 0;
     private wasRunning = false;
+    private readonly lastValues = new Map<string, number>();
 
     constructor(model: Model) {
         model.on("all", (state) => {
@@ -50,6 +51,9 @@ export class Recorder {
             this.wasRunning = running;
         });
         model.on("motion", (motion) => this.addMotion(motion));
+        model.on("signals", (signals) => {
+            for (const { name, value } of signals) this.lastValues.set(name, value);
+        });
         model.on("signal", (changes) => {
             for (const [name, value] of changes) this.addSignal(name, model.lastTime, value);
         });
@@ -70,12 +74,6 @@ export class Recorder {
         const last = this.runs[this.runs.length - 1];
         if (last && last.samples.length === 0) return last;
         const run: Run = { number: (last?.number ?? 0) + 1, samples: [], signals: new Map() };
-        if (last) {
-            for (const [name, changes] of last.signals) {
-                const value = changes[changes.length - 1];
-                if (value) run.signals.set(name, [{ t: last.samples[last.samples.length - 1]?.t ?? 0, value: value.value }]);
-            }
-        }
         this.runs.push(run);
         this.trim();
         this.onRuns();
@@ -86,6 +84,7 @@ export class Recorder {
         if (!this.recording || motion.units.length === 0) return;
         const { samples } = this.current;
         const before = samples[samples.length - 1];
+        if (before && motion.t < before.t) return; // the clock of a controller never runs backwards within a run
         const units = before ? [...before.units] : [];
         for (const unit of motion.units) units[unit[0]] = sampleOf(unit);
         samples.push({ t: motion.t, units });
@@ -96,8 +95,10 @@ export class Recorder {
 
     private addSignal(name: string, t: number, value: number): void {
         if (!this.recording || this.changes >= signalChangesKept) return;
-        const { signals } = this.current;
-        const known = signals.get(name) ?? [];
+        const { signals, samples } = this.current;
+        const before = this.lastValues.get(name) ?? 0;
+        this.lastValues.set(name, value);
+        const known = signals.get(name) ?? [{ t: samples[0]?.t ?? t, value: before }];
         known.push({ t, value });
         signals.set(name, known);
         this.changes += 1;

@@ -187,6 +187,7 @@ export class RecordingPanel {
 
     private showSignalChoice(run: Run): void {
         const names = [...run.signals.keys()].sort();
+        this.signalChoice.hidden = names.length === 0;
         if (names.length === this.signalChoice.options.length) return;
         setOptions(this.signalChoice, names.map((value) => ({ value, label: value })));
     }
@@ -212,6 +213,7 @@ function jointSeries(run: Run, unit: number): Series[] {
             const duration = (now?.t ?? 0) - (before?.t ?? 0);
             values[at] = duration > 1e-6 ? way / duration : 0;
         }
+        values[0] = values[1] ?? 0;
         return { label: `${joint + 1}`, colour: jointColours[joint % jointColours.length] ?? "series-1", times, values };
     });
 }

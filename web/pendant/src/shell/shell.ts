@@ -38,11 +38,13 @@ export class Shell {
     private readonly panels = h("main", { class: "panels" });
     private readonly cover = h("div", { class: "cover", attrs: { role: "alert" } });
     private readonly topBar: TopBar;
+    private readonly view: ViewPanel;
     private current = "";
 
     constructor(root: HTMLElement, private readonly model: Model) {
         this.topBar = new TopBar(model);
         const view = new ViewPanel(model);
+        this.view = view;
         const program = new ProgramPanel(model);
         const show = (module: string, line: number, task: string): void => {
             this.select("program");
@@ -67,6 +69,11 @@ export class Shell {
         );
         this.tabList.addEventListener("keydown", (event) => this.moveFocus(event));
         this.select(location.hash.slice(1) || "program");
+    }
+
+    /** Of the 3D view: frame time in ms, frames, points of all paths. */
+    get statistics(): ViewPanel["statistics"] {
+        return this.view.statistics;
     }
 
     showProduct(product: string): void {

@@ -43,6 +43,7 @@ export class TopBar {
             button({ icon: "stepInto", label: "Step into", iconOnly: true, keys: "F11", onClick: run("stepIn") }),
             button({ icon: "toMain", label: "PP to Main", onClick: () => this.send("run.pointerToMain") }),
         ];
+        this.whenStopped[3]?.setAttribute("aria-label", "Program pointer to main"); // its text is hidden on narrow screens
         this.emergency = button({ label: "STOP", class: "emergency", title: "Emergency stop", onClick: () => this.toggleEmergency() });
         this.emergency.setAttribute("aria-label", "Emergency stop");
         const modes = [{ value: "auto" as const, label: "Auto" }, { value: "manual" as const, label: "Manual" }];

@@ -4,10 +4,14 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { frameAxes } from "./frames";
 import { palette, type Palette } from "./palette";
+import { drawsInSoftware } from "./software";
 
-const slowFrame = 40; // ms; above it the picture gets coarser
-const fastFrame = 14; // ms; below it finer again
+const slowFrame = 55; // ms from one picture to the next; above it the picture gets coarser
+const fastFrame = 20; // ms; below it finer again
+const longestFrame = 1500; // ms; longer: nothing had to be drawn in between
 const coarsest = 0.6;
+const stillAfter = 500; // ms without a change
+const stillRatio = 2; // pixels drawn for each shown in a picture at rest: smooth edges in software, too
 
 /**
  * Renderer, camera, lights and floor. Draws only when something has changed, at most once per frame of the screen, and
@@ -18,7 +22,7 @@ export class Stage {
     readonly camera = new PerspectiveCamera(38, 1, 0.02, 200);
     readonly content = new Group();
     readonly controls: OrbitControls;
-    /** duration of the last frames in ms, smoothed */
+    /** time from one picture to the next in ms while there is movement, smoothed */
     frameTime = 16;
     frames = 0;
     /** before each frame */
@@ -31,10 +35,13 @@ export class Stage {
     private ratio = Math.min(window.devicePixelRatio, 2);
     private readonly finest = Math.min(window.devicePixelRatio, 2);
     private sinceChange = 0;
+    private lastDrawn = -Infinity;
+    private stillTimer = 0;
+    private isStill = false;
     colours: Palette = palette();
 
     constructor(readonly canvas: HTMLCanvasElement) {
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+        this.renderer = new WebGLRenderer({ canvas, antialias: !drawsInSoftware, powerPreference: "high-performance" });
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.screenSpacePanning = true;
@@ -82,8 +89,8 @@ export class Stage {
     resize(): void {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         if (width === 0 || height === 0) return;
-        this.renderer.setPixelRatio(this.ratio);
-        this.renderer.setSize(width, height, false);
+        this.isStill = false;
+        this.setSize(this.ratio);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
         this.draw();
@@ -92,22 +99,42 @@ export class Stage {
     draw(): void {
         if (this.asked) return;
         this.asked = true;
-        requestAnimationFrame(() => {
+        requestAnimationFrame((time) => {
             this.asked = false;
+            if (this.isStill) this.resize();
             this.render();
+            this.measure(time);
+            if (!drawsInSoftware) return;
+            clearTimeout(this.stillTimer);
+            this.stillTimer = window.setTimeout(() => this.drawStill(), stillAfter);
         });
     }
 
+    private setSize(ratio: number): void {
+        this.renderer.setPixelRatio(ratio);
+        this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+    }
+
+    /** Nothing moves: one fine picture. */
+    private drawStill(): void {
+        if (this.asked || this.isStill || this.canvas.clientWidth === 0) return;
+        this.isStill = true;
+        this.setSize(stillRatio);
+        this.render();
+        this.lastDrawn = -Infinity;
+    }
+
     private render(): void {
-        const started = performance.now();
         this.onFrame();
         this.renderer.render(this.scene, this.camera);
         this.onDrawn();
-        this.measure(performance.now() - started);
     }
 
-    private measure(duration: number): void {
+    private measure(time: number): void {
+        const duration = time - this.lastDrawn;
+        this.lastDrawn = time;
         this.frames += 1;
+        if (duration > longestFrame) return;
         this.frameTime += (duration - this.frameTime) * 0.1;
         this.sinceChange += 1;
         if (this.sinceChange < 30) return;
