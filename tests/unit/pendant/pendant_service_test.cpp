@@ -76,7 +76,7 @@ class Served {
         REQUIRE(controller_->open() == rt::ExitStatus::Ended);
         journal_ = std::make_unique<service::EventJournal>(*controller_);
         manual_ = std::make_unique<service::ManualMotion>(*controller_);
-        configuration_ = std::make_unique<service::ConfigurationStore>(*controller_);
+        configuration_ = std::make_unique<service::ConfigurationStore>(*controller_, volumes_);
         const Shared shared{*controller_, *journal_, *manual_, *configuration_, volumes_};
         service = std::make_unique<PendantService>(
             shared, PendantSettings{.files = fallbackPage(), .password = "secret", .address = "0.0.0.0"});
@@ -86,6 +86,7 @@ class Served {
     ~Served() {
         controller_->shutDown();
         thread_.join();
+        service.reset(); // before what it uses
     }
     Served(const Served&) = delete;
     Served& operator=(const Served&) = delete;
@@ -114,8 +115,8 @@ class Served {
     std::unique_ptr<service::VirtualController> controller_;
     std::unique_ptr<service::EventJournal> journal_;
     std::unique_ptr<service::ManualMotion> manual_;
-    std::unique_ptr<service::ConfigurationStore> configuration_;
     service::FileVolumes volumes_;
+    std::unique_ptr<service::ConfigurationStore> configuration_;
     std::thread thread_;
 };
 
