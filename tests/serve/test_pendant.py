@@ -244,6 +244,7 @@ class Load(PendantCase):
         self.page.wait("motion")
         status = self.server.stop(seconds=2 * SLOW)
         self.assertEqual(status, 143)
+        self.server.errors.close()
         type(self).server = Serve(f"{self.folder}/inputs", options=(f"--home={self.home}", *self.OPTIONS))
 
 

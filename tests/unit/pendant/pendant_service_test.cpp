@@ -76,7 +76,7 @@ class Served {
         REQUIRE(controller_->open() == rt::ExitStatus::Ended);
         journal_ = std::make_unique<service::EventJournal>(*controller_);
         manual_ = std::make_unique<service::ManualMotion>(*controller_);
-        configuration_ = std::make_unique<service::ConfigurationStore>(*controller_, volumes_);
+        configuration_ = std::make_unique<service::ConfigurationStore>(*controller_, folder_.path.string());
         const Shared shared{*controller_, *journal_, *manual_, *configuration_, volumes_};
         service = std::make_unique<PendantService>(
             shared, PendantSettings{.files = fallbackPage(), .password = "secret", .address = "0.0.0.0"});
