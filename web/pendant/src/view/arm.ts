@@ -1,5 +1,5 @@
 import {
-    BoxGeometry, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, Matrix4, Mesh, MeshStandardMaterial, Quaternion, Vector3,
+    BoxGeometry, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, Matrix4, Mesh, MeshLambertMaterial, MeshStandardMaterial, Quaternion, Vector3,
 } from "three";
 import type { Body, Pose, Solid, Unit } from "../api/protocol";
 import { matrixOf, metres, quaternionOf, vectorOf } from "../math/pose";
@@ -8,6 +8,8 @@ import type { Palette } from "./palette";
 
 const upward = new Vector3(0, 1, 0); // three.js builds capsules and cylinders along y
 const degree = Math.PI / 180;
+
+type Material = MeshStandardMaterial | MeshLambertMaterial;
 
 interface Rod {
     mesh: Mesh;
@@ -26,12 +28,13 @@ export class Arm {
     readonly tcp = new Vector3();
     private readonly bodies: Group[] = [];
     private readonly rods: Rod[] = [];
-    private readonly materials: Record<string, MeshStandardMaterial>;
+    private readonly materials: Record<string, Material>;
     private tool: Group | null = null;
     private readonly motion = new Matrix4();
     private readonly origins: Matrix4[] = [];
 
-    constructor(private readonly unit: Unit, colours: Palette, private readonly ghost = false) {
+    /** @param plain surfaces without gloss, for computers that draw in software */
+    constructor(private readonly unit: Unit, colours: Palette, private readonly plain: boolean, private readonly ghost = false) {
         this.materials = this.makeMaterials(colours);
         matrixOf(unit.base, this.group.matrix);
         this.group.matrixAutoUpdate = false;
@@ -42,7 +45,7 @@ export class Arm {
 
     setColours(colours: Palette): void {
         const next = this.makeMaterials(colours);
-        for (const [role, material] of Object.entries(this.materials)) material.color.copy((next[role] as MeshStandardMaterial).color);
+        for (const [role, material] of Object.entries(this.materials)) material.color.copy((next[role] as Material).color);
     }
 
     setTool(pose: Pose): void {
@@ -93,18 +96,13 @@ export class Arm {
         return this.motion.makeTranslation(x * value * metres, y * value * metres, z * value * metres);
     }
 
-    private makeMaterials(colours: Palette): Record<string, MeshStandardMaterial> {
+    private makeMaterials(colours: Palette): Record<string, Material> {
         const roles: Record<string, Color> = { arm: colours.arm, joint: colours.joint, flange: colours.flange, tool: colours.tool };
-        const made: Record<string, MeshStandardMaterial> = {};
+        const made: Record<string, Material> = {};
         for (const [role, colour] of Object.entries(roles)) {
-            made[role] = new MeshStandardMaterial({
-                color: this.ghost ? colours.ghost : colour,
-                roughness: role === "arm" ? 0.5 : 0.4,
-                metalness: role === "flange" ? 0.5 : 0.05,
-                transparent: this.ghost,
-                opacity: this.ghost ? 0.35 : 1,
-                depthWrite: !this.ghost,
-            });
+            const surface = { color: this.ghost ? colours.ghost : colour, transparent: this.ghost, opacity: this.ghost ? 0.35 : 1, depthWrite: !this.ghost };
+            const gloss = { roughness: role === "arm" ? 0.5 : 0.4, metalness: role === "flange" ? 0.5 : 0.05 };
+            made[role] = this.plain ? new MeshLambertMaterial(surface) : new MeshStandardMaterial({ ...surface, ...gloss });
         }
         return made;
     }
@@ -141,8 +139,8 @@ export class Arm {
         group.add(this.between(from, vectorOf(solid.to), radius, role, solid.kind === "capsule"));
     }
 
-    private material(role: string): MeshStandardMaterial {
-        return this.materials[role] ?? (this.materials.arm as MeshStandardMaterial);
+    private material(role: string): Material {
+        return this.materials[role] ?? (this.materials.arm as Material);
     }
 
     private between(from: Vector3, to: Vector3, radius: number, role: string, round = false): Mesh {

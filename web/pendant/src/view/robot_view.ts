@@ -41,9 +41,10 @@ export class RobotView {
 
     build(state: State): void {
         for (const robot of this.robots.splice(0)) this.remove(robot);
-        const { colours } = this.stage;
+        const { stage } = this;
+        const { colours } = stage;
         for (const unit of state.units) {
-            const arm = new Arm(unit, colours);
+            const arm = new Arm(unit, colours, stage.software);
             const path = new PathLine(pathPoints, colours.past, colours.fast);
             const material = new LineDashedMaterial({ color: colours.planned, dashSize: 0.02, gapSize: 0.012 });
             const planned = new Line(new BufferGeometry(), material);
@@ -94,7 +95,7 @@ export class RobotView {
             robot.ghost = null;
         } else {
             if (!robot.ghost) {
-                robot.ghost = new Arm(unit, this.stage.colours, true);
+                robot.ghost = new Arm(unit, this.stage.colours, this.stage.software, true);
                 this.stage.content.add(robot.ghost.group);
             }
             robot.ghost.setPose(joints, flange);
