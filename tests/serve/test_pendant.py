@@ -1,9 +1,10 @@
 """The web page's port: files, security, and the WebSocket protocol of docs/pendant.md. "N" = line N of the serve contract."""
 
 import contextlib
+import time
 
 from pendant_client import Pendant, PendantError
-from serve_testing import ServeCase, main
+from serve_testing import SLOW, Serve, ServeCase, main
 
 MODULE = """MODULE MainModule
   PERS tooldata tGripper := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];
@@ -212,6 +213,39 @@ class Messages(PendantCase):
         for page in pages:
             page.close()
         self.eventually(lambda: self.connect(hello=False).status == 101)
+
+
+class Load(PendantCase):
+    def test_reader_that_does_not_read(self):  # 45: it costs others nothing, and its queue is bounded
+        slow = self.connect()
+        slow.socket.raw.socket.settimeout(20)
+        frames = 0
+        with contextlib.suppress(ConnectionError, TimeoutError):
+            for frames in range(30_000):
+                slow.send("state")
+                if frames % 1000 == 0:
+                    begun = time.monotonic()
+                    self.assertIn("panel", self.page.call("state"))
+                    self.assertLess(time.monotonic() - begun, 2)
+        self.assertLess(self.memory(), 400 * 1024)  # kB: 30,000 answers alone would be more than 100 MB on top
+        self.assertIn("panel", self.page.call("state"))
+        with contextlib.suppress(ConnectionError, TimeoutError):
+            while slow.take() is not None:  # what was sent before the socket was cut off
+                pass
+
+    def memory(self):
+        """Resident memory of the server, kB."""
+        with open(f"/proc/{self.server.process.pid}/status", encoding="ascii") as status:
+            return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+
+    def test_ends_while_pages_listen(self):  # 3
+        self.page.call("signals.subscribe", all=True)
+        self.page.call("run.start")
+        self.page.wait("motion")
+        status = self.server.stop(seconds=2 * SLOW)
+        self.assertEqual(status, 143)
+        self.server.errors.close()
+        type(self).server = Serve(f"{self.folder}/inputs", options=(f"--home={self.home}", *self.OPTIONS))
 
 
 class Panel(PendantCase):
@@ -511,7 +545,7 @@ class Operator(PendantCase):
         self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
         self.page.call("data.write", path="T_ROB1/MainModule/count", value="4711")
         self.page.call("run.start")
-        self.page.wait("display", lambda data: data["lines"][-1] == "4711")
+        self.page.wait("display", lambda data: data.get("line") == "4711")
         self.assertIn("4711", self.page.call("display.read")["lines"])
 
     def test_events(self):
@@ -591,6 +625,39 @@ class ByHand(PendantCase):
         self.refused("refused", "teach.modify", {**MAIN, "line": line_of("TPWrite note")})  # no position there
         joints = self.page.call("teach.read", unit="ROB_1", kind="jointtarget")["value"]
         self.assertTrue(joints.startswith("[[") and joints.endswith("9E+09]]"), joints)
+
+
+class Zones(ServeCase):
+    MODULE = """MODULE MainModule
+  VAR wztemporary wzLamp;
+  VAR wztemporary wzStop;
+  PROC main()
+    VAR shapedata box;
+    VAR shapedata ball;
+    WZBoxDef \\Inside, box, [400,0,300], [300,200,100];
+    WZDOSet \\Temp, wzLamp \\Inside, box, doLamp, 1;
+    WZSphDef \\Outside, ball, [0,0,0], 2000;
+    WZLimSup \\Temp, wzStop, ball;
+    WZDisable wzLamp;
+    WHILE TRUE DO
+      WaitTime 0.1;
+    ENDWHILE
+  ENDPROC
+ENDMODULE
+"""
+    FILES = {"EIO.cfg": EIO}
+
+    def test_zones(self):  # manual 2.9; corners in order, as they are drawn
+        page = Pendant(self.server.port("web"))
+        self.addCleanup(page.close)
+        zones = self.eventually(lambda: (lambda found: found if len(found) == 2 and not found[0]["active"] else None)(
+            page.call("zones.list")["zones"]))
+        box, ball = zones
+        self.assertEqual((box["kind"], box["inside"], box["stops"], box["signal"]), ("box", True, False, "doLamp"))
+        self.assertEqual(box["box"], {"from": [300, 0, 100], "to": [400, 200, 300]})
+        self.assertEqual((ball["kind"], ball["inside"], ball["stops"], ball["signal"]), ("sphere", False, True, ""))
+        self.assertEqual(ball["sphere"], {"centre": [0, 0, 0], "radius": 2000})
+        self.assertEqual(page.call("state")["zones"], zones)
 
 
 if __name__ == "__main__":

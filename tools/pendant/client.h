@@ -12,7 +12,7 @@ namespace rapidc::pendant {
 
 class Client {
   public:
-    static constexpr int kMostWaiting = 64;                          ///< requests
+    static constexpr int kMostWaiting = 64;                             ///< requests
     static constexpr std::size_t kLargestAnswer = std::size_t{8} << 20; ///< bytes
 
     Client(std::shared_ptr<http::WebSocket> socket, std::string peer, bool needsLogin)

@@ -50,7 +50,8 @@ std::string_view pathOf(std::string_view target) {
 /// A socket at /api. It hands requests to the controller's thread.
 class PendantService::Socket final : public http::SocketListener {
   public:
-    Socket(PendantService& service, std::string peer) : service_(service), sockets_(service.sockets_), peer_(std::move(peer)) {}
+    Socket(PendantService& service, std::string peer)
+        : service_(service), sockets_(service.sockets_), peer_(std::move(peer)) {}
     ~Socket() override { --*sockets_; }
     Socket(const Socket&) = delete;
     Socket& operator=(const Socket&) = delete;
@@ -70,9 +71,11 @@ class PendantService::Socket final : public http::SocketListener {
         if (id == request.end() || !id->is_number_unsigned() || id->get<uint64_t>() > (uint64_t{1} << 53))
             return client_->refuse(nullptr, {code::kBadRequest, "id must be a whole number"});
         if (!client_->beginRequest())
-            return client_->refuse(*id, {code::kBusy, "Too many requests wait for an answer", "Send it later"});
+            return client_->refuse(*id,
+                                   {code::kBusy, "Too many requests wait for an answer", "Send it later"});
         auto shared = std::make_shared<const Json>(std::move(request));
-        service_.controller_.post([&hub = service_.hub_, client = client_, shared] { hub.handle(client, shared); });
+        service_.controller_.post(
+            [&hub = service_.hub_, client = client_, shared] { hub.handle(client, shared); });
     }
 
     void closed() override {
@@ -89,8 +92,9 @@ class PendantService::Socket final : public http::SocketListener {
 
 PendantService::PendantService(const Shared& shared, PendantSettings settings)
     : controller_(shared.controller), settings_(std::move(settings)), hub_(shared) {
-    hub_.setPasswordCheck(
-        [this](const Client& client, const std::string& password) { return checkPassword(client, password); });
+    hub_.setPasswordCheck([this](const Client& client, const std::string& password) {
+        return checkPassword(client, password);
+    });
 }
 
 PendantService::~PendantService() = default;
@@ -152,7 +156,8 @@ void PendantService::handle(http::Request request, http::Respond respond) {
     if (found == settings_.files.end()) return respond(plain(404, "There is no such file"));
     const bool takesGzip = request.header("Accept-Encoding").find("gzip") != std::string_view::npos;
     const bool sendsGzip = found->isCompressed && takesGzip;
-    http::Response response = http::Response::text(200, sendsGzip ? std::string(found->bytes) : plainBytes(*found), std::string(found->type));
+    http::Response response = http::Response::text(
+        200, sendsGzip ? std::string(found->bytes) : plainBytes(*found), std::string(found->type));
     if (found->isCompressed) response.headers.emplace_back("Vary", "Accept-Encoding");
     if (sendsGzip) response.headers.emplace_back("Content-Encoding", "gzip");
     respond(secured(std::move(response)));
