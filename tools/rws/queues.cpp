@@ -18,7 +18,7 @@ using rapid::config::lowerCase;
 using rapid::config::sameName;
 
 constexpr std::size_t kMostQueues = 100, kMostMessages = 1000;
-constexpr std::size_t kLargestMessage = 64 * 1024; // bytes
+constexpr std::size_t kLargestMessage = 65536; // bytes
 constexpr std::size_t kLongestName = 80;
 constexpr double kLongestWait = 10; // s; a worker waits meanwhile
 
