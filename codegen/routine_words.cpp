@@ -114,6 +114,10 @@ WordWriter::WordWriter(const ir::Module& module, const ir::Routine& routine, siz
       slotCount_(static_cast<uint32_t>(routine.params.size())) {
     findLastUses();
     out_.words.reserve(routine.insts.size() * 4);
+    if (cfg_.order[0] != 0) { // handlers may come before the entry
+        put(Op::Jump);
+        place(0);
+    }
     for (size_t i = 0; i < cfg_.order.size(); ++i) {
         following_ = i + 1 < cfg_.order.size() ? cfg_.order[i + 1] : ir::kNone;
         block(cfg_.order[i]);

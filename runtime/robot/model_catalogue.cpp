@@ -281,6 +281,7 @@ std::string similarRobotModel(std::string_view name) {
     constexpr std::size_t kMostChanges = 2, kLongest = 100; // of the family; characters
     const NameParts wanted = takeApart(name.substr(0, kLongest));
     std::string best;
+    if (wanted.family.empty()) return best;
     double least = std::numeric_limits<double>::infinity();
     for (const std::string& candidate : robotModelNames()) {
         const NameParts model = takeApart(candidate);

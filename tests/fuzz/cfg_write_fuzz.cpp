@@ -3,6 +3,7 @@
 
 #include "config/cfg_parser.h"
 #include "config/cfg_writer.h"
+#include "config/text_util.h"
 #include "fuzz_support.h"
 
 #include <algorithm>

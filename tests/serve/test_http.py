@@ -5,8 +5,8 @@ import socket
 import ssl
 import time
 
-from rws_client import FORM, HAL, XHTML2, RawClient, read_xhtml, unchecked_context
-from serve_testing import SLOW, ServeCase, main
+from rws_client import FORM, HAL, XHTML2, read_xhtml, unchecked_context
+from serve_testing import SLOW, Serve, ServeCase, main
 
 PATH = "/rw/panel/opmode"
 MOTORS = {1: "/rw/panel/ctrlstate?action=setctrlstate", 2: "/rw/panel/ctrl-state"}  # needs no mastership
@@ -231,6 +231,16 @@ class Connections(ServeCase):
         response, _ = self.ask(f"GET {PATH} HTTP/1.1\r\nHost: robot.example:80\r\nConnection: close\r\n{cookie}\r\n")
         self.assertEqual(response.status, 200)
 
+    def test_head(self):
+        headers = self.logged_on()
+        raw = self.server.raw()
+        raw.send(f"HEAD {PATH} HTTP/1.1\r\n{headers}\r\nGET {PATH} HTTP/1.1\r\n{headers}\r\n")
+        head = raw.read(is_head=True)
+        self.assertEqual(head.status, 200)
+        full = raw.read()
+        self.assertEqual(head.header("content-length"), str(len(full.body)))
+        raw.close()
+
     def test_http_1_0(self):
         headers = self.logged_on()
         response, ended = self.ask(f"GET {PATH} HTTP/1.0\r\n{headers}\r\n")
@@ -248,6 +258,49 @@ class Connections(ServeCase):
                 pass
             connection.close()
         self.assertEqual(self.client(2).get(PATH).status, 200)
+
+
+class Ending(ServeCase):
+    """Contract 2 and 3."""
+
+    def inputs(self):
+        return os.path.join(self.folder, "inputs")
+
+    def test_sigterm_while_clients_are_there(self):
+        server = Serve(self.inputs())
+        client = server.client(1)
+        response = client.subscribe(PATH)
+        socket_ = client.open_events(response)
+        half = server.raw().send("GET / HTTP/1.1\r\n")
+        secure = server.raw("https")
+        begin = time.monotonic()
+        self.assertEqual(server.stop(), 143)
+        self.assertLess(time.monotonic() - begin, 2 * SLOW)
+        self.assertIsNone(socket_.text())
+        for each in (half, secure, socket_, client):
+            each.close()
+
+    def test_one_line_on_stdout(self):
+        server = Serve(self.inputs())
+        self.assertEqual(sorted(server.addresses), ["http", "https", "web"])
+        client = server.client(2)
+        client.get(PATH)
+        client.close()
+        server.process.terminate()
+        self.assertEqual(server.process.stdout.read(), b"")
+        self.assertEqual(server.stop(), 143)
+
+    def test_what_cannot_begin(self):
+        taken = str(self.server.port())
+        for arguments in ((self.inputs(), "--http-port=" + taken), (self.inputs(), "--https-port=" + taken), ("/none/at/all",),
+                          (self.inputs(), "--no-such-option"), (self.inputs(), "--http-port=70000"), (self.inputs(), "--listen=0.0.0.0"), ()):
+            with self.subTest(arguments=arguments[1:]):
+                server = Serve(*arguments, wait=False)
+                status = server.process.wait(20 * SLOW)
+                self.assertNotIn(status, (0, 143, -15))
+                self.assertEqual(server.process.stdout.read(), b"")
+                self.assertTrue(server.stderr_text().strip())
+                server.process.stdout.close()
 
 
 class Certificate(ServeCase):

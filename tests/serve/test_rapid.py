@@ -20,7 +20,7 @@ MODULE M
   ENDPROC
   PROC part()
     count := 5;
-    WaitTime 0.05;
+    WaitTime 0.3;
   ENDPROC
 ENDMODULE
 """
@@ -196,6 +196,17 @@ class Execution(RapidCase):
                              event.values.get("BegPosLine") or event.values.get("excstate")))
             self.assertIn(("rap-ctrlexecstate-ev", "running"), seen)
             self.assertIn(("rap-execcycle-ev", "once"), seen)
+            self.eventually(lambda: any(event.type == "rap-pp-ev" for event in socket.events_within(0.3)) or
+                            ("rap-pp-ev", "11") in seen)
+
+    def test_count_of_resources(self):
+        """2.5, A10: its clients write the number of resources into the field `resources`."""
+        for client in self.both():
+            panel = "/rw/panel/ctrlstate" if client.dialect == 1 else "/rw/panel/ctrl-state"
+            response = client.post("/subscription", {"resources": "3", "1": "/rw/rapid/execution;ctrlexecstate", "1-p": "1",
+                                                     "2": panel, "2-p": "1", "3": f"{TASK};taskchange", "3-p": "1"})
+            self.assertEqual(sorted(entry.type for entry in response.entries()),
+                             ["pnl-ctrlstate-ev", "rap-ctrlexecstate-ev", "rap-task-change-ev"])
 
     def test_counters_and_routines(self):
         """22: (2.0) structural-changecount rap-task-struc-change-count: change-count; 2.3: serviceroutine, builderror."""

@@ -196,6 +196,18 @@ class Upgrades(SubscriptionCase):
         self.assertEqual(socket.close_code, 1000)
 
 
+class Pings(SubscriptionCase):
+    def test_pings(self):
+        """controller.md 2.4: clients give up 40 s after the last frame, so a ping comes at least every 30 s."""
+        sockets = [self.open(client, OPMODE)[1] for client in self.both()]
+        begin = time.monotonic()
+        for socket in sockets:
+            opcode, data = socket.frame(30)
+            self.assertEqual(opcode, 9)
+            socket.send_frame(10, data)
+        self.assertGreater(time.monotonic() - begin, 5)
+
+
 class Events(SubscriptionCase):
     def test_high_priority_sends_every_change_in_order(self):
         """Contract 42."""

@@ -208,7 +208,9 @@ class Search(RapidCase):
             self.assertEqual(self.names(client, {**form, "symtyp": "per", "dattyp": "num"}), ["number", "other"])
             self.assertEqual(self.names(client, {**form, "symtyp": "per", "vartyp": "any"}), self.names(client, {**form, "symtyp": "per"}))
             self.assertEqual(self.names(client, {**form, "symtyp": "con"}), ["limit"])
-            self.assertEqual(self.names(client, {**form, "symtyp": "any", "regexp": "^l.*"}), ["limit", "large", "list"])
+            for regexp in ("^l.*", "l.*", "^l", "^l|l"):
+                self.assertEqual(self.names(client, {**form, "symtyp": "any", "regexp": regexp}), ["limit", "large", "list"])
+            self.assertEqual(self.names(client, {**form, "symtyp": "any", "regexp": "rge$"}), ["large"])
             self.assertEqual(self.names(client, {**form, "symtyp": "prc"}), ["main", "hidden"])
             self.assertEqual(self.names(client, {**form, "symtyp": "mod"}), ["M", "N"])
             self.assertEqual(self.names(client, [*form.items(), ("symtyp", "fun"), ("symtyp", "con")]), ["limit", "twice"])

@@ -94,6 +94,8 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     const Handler motors = [this](const Request& request) { return setMotors(request); };
     router.action("/rw/panel/ctrlstate", "setctrlstate", motors);
     router.post(Dialect::V2, "/rw/panel/ctrl-state", motors);
+    router.post(Dialect::V2, "/rw/panel/ctrl-state/keyless-motoron",
+                [this](const Request&) { return replyTo(controller_.setMotors(true)); });
     const Handler speed =
         access_.guarded(Domain::Rapid, [this](const Request& request) { return setSpeedRatio(request); });
     router.action("/rw/panel/speedratio", "setspeedratio", speed);

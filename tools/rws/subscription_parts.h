@@ -44,7 +44,7 @@ struct Subscriptions::Topic {
     Outlets outlets[3]; ///< by priority; never null
     bool isDirty[2] = {false, false};
     Entry latest;
-    std::deque<Entry> messages[2]; ///< of the event log
+    std::deque<Entry> messages[2]; ///< those that are not merged
 };
 
 struct Subscriptions::Group {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <unordered_map>
 
 namespace rapidc::rws {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostResources = 1000; ///< in a group
 constexpr std::size_t kMostGroups = 32;      ///< of a session
+constexpr std::size_t kMostMessages = 1000;  ///< of a topic within a period
 constexpr std::size_t kMostImmediate = 64;   ///< resources of priority 2 in a group
 
 Failure bad(std::string message) {
@@ -44,6 +46,28 @@ uint64_t numberOf(const std::string& text) {
 /// "http://host" -> "ws://host".
 std::string socketBaseOf(const std::string& base) {
     return "ws" + base.substr(std::min<std::size_t>(4, base.size()));
+}
+
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// The names of the fields that hold paths: "resources" names each of them, or some clients write their count there.
+std::vector<std::string> resourceIds(const Fields& form) {
+    std::vector<std::string> ids;
+    std::set<std::string> known;
+    for (const auto& [name, value] : form.all()) {
+        const bool isName = rapid::config::sameName(name, "resources");
+        const std::string& id = isName ? value : name;
+        if ((isName || isNumber(name)) && known.insert(rapid::config::lowerCase(id)).second)
+            ids.push_back(id);
+    }
+    return ids;
+}
+
+/// Messages are sent one by one; all else is a state whose last value counts.
+bool isMessage(const Entry& entry) {
+    return entry.type == "elog-message-ev" || entry.type == "rap-ui-ev" || entry.type == "dipc-msg-ev";
 }
 
 /// An entry of an event: the anchor of rel=self repeats what was subscribed.
@@ -90,8 +114,7 @@ std::optional<Failure> Subscriptions::readWishes(const Request& request, std::ve
         const auto found = fields.find(rapid::config::lowerCase(name));
         return found == fields.end() ? nullptr : found->second;
     };
-    for (const auto& [name, id] : request.form.all()) {
-        if (!rapid::config::sameName(name, "resources")) continue;
+    for (const std::string& id : resourceIds(request.form)) {
         const std::string* text = valueOf(id);
         Wish wish{text ? *text : "", 1};
         if (wish.text.empty())
@@ -341,12 +364,15 @@ void Subscriptions::changed(const std::shared_ptr<Topic>& topic, Entry entry) {
         const std::lock_guard lock(mutex_);
         for (int priority = 0; priority < 2; ++priority) {
             if (topic->outlets[priority]->empty()) continue;
-            // The event log has a new message each time: those are not merged.
-            if (entry.type == "elog-message-ev" || !topic->isDirty[priority])
-                dirty_[priority].push_back(topic);
+            std::deque<Entry>& messages = topic->messages[priority];
+            if (messages.size() >= kMostMessages) { // more than anybody reads within a period
+                messages.back() = entry;
+                continue;
+            }
+            if (isMessage(entry) || !topic->isDirty[priority]) dirty_[priority].push_back(topic);
             topic->isDirty[priority] = true;
-            if (entry.type == "elog-message-ev")
-                topic->messages[priority].push_back(entry);
+            if (isMessage(entry))
+                messages.push_back(entry);
             else
                 topic->latest = entry;
         }

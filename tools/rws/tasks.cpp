@@ -81,7 +81,7 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
 }
 
 void Tasks::addCounters(Router& router) {
-    router.get(Dialect::V2, std::string(kTask) + "/structural-changecount", [this](const Request& request) {
+    router.getBoth(std::string(kTask) + "/structural-changecount", [this](const Request& request) {
         const rt::Task* task = taskOf(controller_, request);
         if (task == nullptr) return noTask(request);
         const std::string count = std::to_string(controller_.structuralChanges(*task));

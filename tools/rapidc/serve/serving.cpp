@@ -24,6 +24,7 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
     rws::FrontDoorSettings door;
     door.password = settings.password;
     door.postToController = [this](std::function<void()> work) { controller_.post(std::move(work)); };
+    door.postToNetwork = [this](std::function<void()> work) { server_.post(std::move(work)); };
     door.sessionEnded = [this](uint64_t session) {
         controller_.post([this, session] {
             subscriptions_.sessionEnded(session);
