@@ -54,6 +54,8 @@ class Socket {
     /// The program has waited for something from outside in vain and may do so again: virtual time keeps step with the wall
     /// until the socket is closed, also between the attempts.
     void expectOutside();
+    /// Nothing is expected from outside until something is sent or comes again: virtual time need not keep step with the wall.
+    void rest();
 
     // ---- Operations ---------------------------------------------------------------------------------------
     Outcome bind(const Address& address);

@@ -85,6 +85,9 @@ class Execution(RapidCase):
         """31: set-pp-routine | pcp/routine, pcp/cursor (module, begin-position-row, begin-position-col), pcp/reset."""
         for client in self.masters():
             self.reset(client)
+            frame = client.get(f"{TASK}/activation-record?stackframe=0").values()
+            self.assertEqual((frame["modulename"], frame["routinename"], frame["begposition"]), ("M", "main", "7,5"))
+            self.assertEqual(client.get(f"{TASK}/activation-record?stackframe=9").status, 400)
             for form in ({"module": "M", "routine": "part", "userlevel": "false"}, {"routine": "main"}):
                 self.assertEqual(client.act(f"{TASK}/pcp", "set-pp-routine", form, "routine").status, 204)
                 self.eventually(lambda: self.position(client)["routinename"] == form["routine"])

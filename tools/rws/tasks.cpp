@@ -298,9 +298,18 @@ Reply Tasks::activationRecord(const Request& request) {
     const std::string asked = request.query.text("stackframe");
     const auto number = readWhole(asked.empty() ? "0" : asked, 0, INT32_MAX);
     if (!number) return badParameter("stackframe", "a number from 0");
-    if (static_cast<std::size_t>(*number) >= frames.size())
+    rt::SourcePlace at;
+    const auto pointer = service::programPointer(controller_, *task);
+    if (static_cast<std::size_t>(*number) < frames.size()) {
+        at = frames[static_cast<std::size_t>(*number)].place;
+    } else if (*number == 0 && pointer) { // before the first instruction
+        at.module = pointer->module;
+        at.routine = pointer->routine;
+        at.line = pointer->beginLine;
+        at.column = pointer->beginColumn;
+    } else {
         return Reply::refuse(ReturnCode::BadParameter, "No such stack frame");
-    const rt::SourcePlace& at = frames[static_cast<std::size_t>(*number)].place;
+    }
     Document document;
     document.add("rap-activation-record", std::to_string(*number))
         .value("modulename", at.module)

@@ -26,7 +26,7 @@ struct BackupContent {
         bool isMotionTask = false;
         bool isConfigured = false; ///< CAB_TASKS has it
         std::vector<Module> modules;
-        std::vector<std::string> opaqueFiles; ///< encrypted modules of the backup that was loaded, paths
+        std::vector<std::string> opaqueFiles; ///< of the backup that was loaded: what nobody can read or run
     };
     std::vector<Task> tasks;
     std::vector<Module> shared;                                  ///< installed once for all tasks: TASK0

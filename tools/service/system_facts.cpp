@@ -52,6 +52,7 @@ SystemFacts systemFacts(VirtualController& controller) {
         const project::BackupInfo backup = project::readBackupInfo(bytes);
         if (!backup.systemId.empty()) facts.name = backup.systemId;
         facts.options = backup.options;
+        facts.addIns = backup.addIns;
         break;
     }
     for (const rt::CfgInstance* option : core.instances("SYS", "PRESENT_OPTIONS"))
