@@ -68,7 +68,8 @@ class Browser final : public http::WebSocket {
 class Served {
   public:
     Served() {
-        folder_.write("Waiting.modx", "MODULE Waiting\n  PROC main()\n    WaitTime 1;\n  ENDPROC\nENDMODULE\n");
+        folder_.write("Waiting.modx",
+                      "MODULE Waiting\n  PROC main()\n    WaitTime 1;\n  ENDPROC\nENDMODULE\n");
         service::Settings settings;
         settings.inputs.paths = {(folder_.path / "Waiting.modx").string()};
         settings.programStart = false;
