@@ -58,7 +58,7 @@ std::string Jogging::order(const JogOrder& order) {
                          std::all_of(order.external.begin(), order.external.end(), isShare) &&
                          isShare(order.line.x) && isShare(order.line.y) && isShare(order.line.z) &&
                          isShare(order.turn.x) && isShare(order.turn.y) && isShare(order.turn.z);
-    if (!inRange) return "speeds of jogging are shares from -1 to 1"; // what is no number, too
+    if (!inRange) return "speeds of jogging are shares from -1 to 1"; // NaN is refused as well
     if (!order.moves()) {
         stop();
         return {};
@@ -181,7 +181,7 @@ double Jogging::speedOfExternal(std::size_t i) const {
     return motion_.system().externalAxes()[i].maxSpeed * JogSpeeds::kJointShare;
 }
 
-/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP is no faster than it may be.
+/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP keeps its limit.
 double Jogging::commonSpeed() const {
     const motion::JointTarget here = motion_.system().currentJoints();
     motion::JointTarget there = here;
