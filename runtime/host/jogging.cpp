@@ -18,10 +18,6 @@ bool isZero(const motion::Vec3& v) {
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-double largest(const motion::Vec3& v) {
-    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
 template <class Figures> double largestOf(const Figures& figures) {
     double most = 0;
     for (const double figure : figures)
@@ -57,15 +53,16 @@ Jogging::~Jogging() {
 }
 
 std::string Jogging::order(const JogOrder& order) {
+    const auto isShare = [](double value) { return std::fabs(value) <= 1; };
+    const bool inRange = std::all_of(order.joints.begin(), order.joints.end(), isShare) &&
+                         std::all_of(order.external.begin(), order.external.end(), isShare) &&
+                         isShare(order.line.x) && isShare(order.line.y) && isShare(order.line.z) &&
+                         isShare(order.turn.x) && isShare(order.turn.y) && isShare(order.turn.z);
+    if (!inRange) return "speeds of jogging are shares from -1 to 1"; // NaN is refused as well
     if (!order.moves()) {
         stop();
         return {};
     }
-    const auto isShare = [](double value) { return std::fabs(value) <= 1; };
-    const bool inRange = std::all_of(order.joints.begin(), order.joints.end(), isShare) &&
-                         std::all_of(order.external.begin(), order.external.end(), isShare) &&
-                         isShare(largest(order.line)) && isShare(largest(order.turn));
-    if (!inRange) return "speeds of jogging are shares from -1 to 1";
     if (order.isLinear() && (largestOf(order.joints) > 0 || largestOf(order.external) > 0))
         return "the TCP and single axes do not move together";
     if (order.increment && !(*order.increment > 0 && *order.increment <= 10'000))
@@ -184,7 +181,7 @@ double Jogging::speedOfExternal(std::size_t i) const {
     return motion_.system().externalAxes()[i].maxSpeed * JogSpeeds::kJointShare;
 }
 
-/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP is no faster than it may be.
+/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP keeps its limit.
 double Jogging::commonSpeed() const {
     const motion::JointTarget here = motion_.system().currentJoints();
     motion::JointTarget there = here;

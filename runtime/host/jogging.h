@@ -61,7 +61,7 @@ class Jogging {
     void finish();
     void step();
     double speedWanted(double dt) const;
-    /// Where the arm is after `seconds` of jogging at a share of 1. None: nowhere; `limit_` says why.
+    /// The place of the arm after `seconds` of jogging at a share of 1. None: nowhere; `limit_` says why.
     std::optional<motion::JointTarget> after(double seconds);
     std::optional<motion::JointTarget> afterAxes(double seconds);
     std::optional<motion::JointTarget> afterLine(double seconds);

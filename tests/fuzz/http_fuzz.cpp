@@ -24,7 +24,7 @@ http::Limits smallLimits() {
     return limits;
 }
 
-/// What a head says to the layers above the parser.
+/// The layers above the parser read a head.
 void readHead(const http::Head& head) {
     require(!head.method.empty() && !head.target.empty(), "a request without method or target");
     require(head.headers.size() <= smallLimits().headerFields, "too many headers");

@@ -88,7 +88,7 @@ export const simulatedSteps = {
         await eventually(() => server.cell.signals.find(({ name }) => name === "doVacuum").value === 1, "set");
         await page.fill("input[placeholder='Name, label, device']", "distart");
         await page.waitForSelector(".lamp:disabled"); // an input that is not simulated belongs to its device
-        await page.click("button:has-text('Simulate')");
+        await page.click(".signal-row button:has-text('Simulate')");
         await page.waitForSelector(".signal-row.simulated");
         server.cell.setSignal("diStart", 1);
         await page.waitForSelector(".lamp[aria-checked='true']");
@@ -165,6 +165,7 @@ export const simulatedSteps = {
         await page.keyboard.press("ArrowRight");
         await page.waitForSelector("text=compared with run 2");
         server.cell.setSignal("doVacuum", 1);
+        await page.selectOption("select[aria-label='Run']", { label: "Run 2" });
         await page.click("button:has-text('Live')");
         await page.waitForSelector(".view-banner", { state: "hidden" });
         await eventually(async () => (await page.locator("select[aria-label='Signal'] option").count()) > 0, "the signal can be chosen");

@@ -1,4 +1,4 @@
-"""What the tests of resources around RAPID share: paths in both dialects, and the four forms of a resource."""
+"""Shared by the tests of resources around RAPID: paths in both dialects, and the four forms of a resource."""
 
 import time
 
@@ -17,7 +17,7 @@ def properties(dialect, symbol):
 
 
 class RapidCase(ServeCase):
-    """A server with a program that stands at main, motors off."""
+    """A server with a program stopped at main, motors off."""
 
     OPTIONS = ("--no-program-start",)
 

@@ -346,7 +346,7 @@ class Origins(ServeCase):
             self.assertIsNone(response.header("access-control-allow-origin"))
 
     def test_names_that_lead_here(self):
-        """A name that its owner lets lead to 127.0.0.1 is no own origin (DNS rebinding)."""
+        """A name that its owner lets lead to 127.0.0.1 is not an own origin (DNS rebinding)."""
         client = self.client()
         client.get(PATH)
         response = client.post("/rw/panel/speedratio?action=setspeedratio", {"speed-ratio": "80"},

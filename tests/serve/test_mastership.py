@@ -39,7 +39,7 @@ class Mastership(RapidCase):
         self.assertEqual(old.post("/rw/mastership/motion?action=release").status, 204)
 
     def test_old_clients_need_none(self):
-        """Contract 38: 1.0 writes while nobody else holds the domain; 2.0 needs edit: 403, -1073445859."""
+        """Contract 38: 1.0 writes while no other client holds the domain; 2.0 needs edit: 403, -1073445859."""
         self.assertEqual(self.write(self.client(1)).status, 204)
         response = self.write(self.client(2))
         self.assertEqual((response.status, response.code()), (403, NONE))

@@ -244,6 +244,7 @@ class Load(PendantCase):
         self.page.wait("motion")
         status = self.server.stop(seconds=2 * SLOW)
         self.assertEqual(status, 143)
+        self.server.errors.close()
         type(self).server = Serve(f"{self.folder}/inputs", options=(f"--home={self.home}", *self.OPTIONS))
 
 
@@ -624,6 +625,39 @@ class ByHand(PendantCase):
         self.refused("refused", "teach.modify", {**MAIN, "line": line_of("TPWrite note")})  # no position there
         joints = self.page.call("teach.read", unit="ROB_1", kind="jointtarget")["value"]
         self.assertTrue(joints.startswith("[[") and joints.endswith("9E+09]]"), joints)
+
+
+class Zones(ServeCase):
+    MODULE = """MODULE MainModule
+  VAR wztemporary wzLamp;
+  VAR wztemporary wzStop;
+  PROC main()
+    VAR shapedata box;
+    VAR shapedata ball;
+    WZBoxDef \\Inside, box, [400,0,300], [300,200,100];
+    WZDOSet \\Temp, wzLamp \\Inside, box, doLamp, 1;
+    WZSphDef \\Outside, ball, [0,0,0], 2000;
+    WZLimSup \\Temp, wzStop, ball;
+    WZDisable wzLamp;
+    WHILE TRUE DO
+      WaitTime 0.1;
+    ENDWHILE
+  ENDPROC
+ENDMODULE
+"""
+    FILES = {"EIO.cfg": EIO}
+
+    def test_zones(self):  # manual 2.9; corners in order, as they are drawn
+        page = Pendant(self.server.port("web"))
+        self.addCleanup(page.close)
+        zones = self.eventually(lambda: (lambda found: found if len(found) == 2 and not found[0]["active"] else None)(
+            page.call("zones.list")["zones"]))
+        box, ball = zones
+        self.assertEqual((box["kind"], box["inside"], box["stops"], box["signal"]), ("box", True, False, "doLamp"))
+        self.assertEqual(box["box"], {"from": [300, 0, 100], "to": [400, 200, 300]})
+        self.assertEqual((ball["kind"], ball["inside"], ball["stops"], ball["signal"]), ("sphere", False, True, ""))
+        self.assertEqual(ball["sphere"], {"centre": [0, 0, 0], "radius": 2000})
+        self.assertEqual(page.call("state")["zones"], zones)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ using service::DataPath;
 using service::FoundData;
 
 constexpr std::size_t kMostPaths = 500;
-constexpr std::size_t kLongestValue = 256 * 1024; // bytes of a value that is sent or taken
+constexpr std::size_t kLongestValue = std::size_t{256} * 1024; // bytes of a value that is sent or taken
 
 const char* kindOf(service::SymbolType type) {
     switch (type) {

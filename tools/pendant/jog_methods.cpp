@@ -180,7 +180,7 @@ Json JogArea::read(const Json& params) {
                          target.conf.cf4, target.conf.cf6, target.conf.cfx, axesText(external))}};
 }
 
-/// The whole instruction in that line is looked at.
+/// The names in that line count; the rest of an instruction that continues on other lines does not.
 Json JogArea::modify(const Json& params) {
     const NamedModule named = moduleOf(controller_, params);
     const int64_t line = wholeOf(params, "line", 1, kMostLine);

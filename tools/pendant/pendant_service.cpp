@@ -13,7 +13,8 @@ namespace rapidc::pendant {
 namespace {
 
 constexpr int kMostSockets = 32;
-constexpr std::size_t kLargestBody = 64 * 1024; // nothing is sent to a page; bytes that are read and dropped
+constexpr std::size_t kLargestBody =
+    std::size_t{64} * 1024; // nothing is sent to a page; bytes that are read and dropped
 constexpr std::chrono::seconds kLockTime{1};
 constexpr std::size_t kMostLocked = 1000;
 

@@ -42,7 +42,7 @@ std::optional<Reply> Backups::folderIn(const Request& request, bool exists, std:
         return refuseFile(found);
     std::error_code code;
     if (exists && !rapid::project::isBackup(host))
-        return Reply::refuse(ReturnCode::NoPath, fmt::format("{} is no backup", path));
+        return Reply::refuse(ReturnCode::NoPath, fmt::format("{} is not a backup", path));
     if (!exists && fs::exists(fs::symlink_status(host, code)))
         return Reply::refuse(ReturnCode::Rejected, fmt::format("{} exists already", path), 409);
     if (!exists && !fs::is_directory(fs::path(host).parent_path(), code))

@@ -111,7 +111,7 @@ http::Decision FrontDoor::decide(Dialect dialect, const http::Head& head) {
     return decision;
 }
 
-/// The response that ends a request before its body; none: it may go on.
+/// The response that ends a request before its body; none: it may continue.
 std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head& head, Visit& visit) {
     const RenderContext plain = contextOf(dialect, head, "/");
     const auto refuse = [&](int status, const char* why) {

@@ -23,7 +23,7 @@
 
 namespace rapidc::rws {
 
-/// Who takes requests for event sockets (subscriptions).
+/// Takes requests for event sockets (subscriptions).
 class SocketGate {
   public:
     virtual ~SocketGate() = default;

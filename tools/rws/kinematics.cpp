@@ -92,7 +92,7 @@ Reply outOfReach(const std::string& why) {
     return Reply::refuse(ReturnCode::BadParameter, "there are no joints for this pose: " + why);
 }
 
-/// What the calculations from a pose begin with.
+/// Input of the calculations from a pose.
 struct PoseRequest {
     motion::Pose flange; ///< in base
     robot::Joints seed;

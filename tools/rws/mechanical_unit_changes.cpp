@@ -117,7 +117,8 @@ Reply MechanicalUnits::setLeadThrough(const Request& request, const Unit& unit) 
     const std::string status = fieldOf(request, "status");
     if (!sameName(status, "active") && !sameName(status, "inactive"))
         return badParameter("status", "active or inactive");
-    if (!unit.isRobot) return Reply::refuse(ReturnCode::Rejected, fmt::format("{} is no robot", unit.name));
+    if (!unit.isRobot)
+        return Reply::refuse(ReturnCode::Rejected, fmt::format("{} is not a robot", unit.name));
     if (sameName(status, "active") && controller_.isRunning())
         return Reply::refuse(ReturnCode::Rejected, "the program is executing: stop it first");
     UnitChoice choice = manual_.choice(unit);

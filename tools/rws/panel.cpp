@@ -50,7 +50,7 @@ constexpr Value kMode{"opmode", "opmode", [](service::VirtualController& control
 constexpr Value kSpeed{"speedratio", "speedratio", [](service::VirtualController& controller) {
                            return std::to_string(controller.panel().speedRatio);
                        }};
-/// A collision stops the program with an event; it leaves no state behind.
+/// A collision stops the program with an event; no state remains.
 constexpr Value kCollision{"coldetstate", "coldetstate",
                            [](service::VirtualController&) { return std::string("INIT"); }};
 

@@ -6,7 +6,7 @@ namespace rapidc::rws {
 
 namespace {
 
-/// Where changed system parameters are written.
+/// The folder of changed system parameters.
 std::string parameterFolder(service::VirtualController& controller) {
     const std::string folder = controller.folderOf("SYSTEM") + "/SYSPAR";
     std::error_code ignored; // writing fails with a message

@@ -22,7 +22,7 @@ Reply fail(const Failure& failure) {
     return Reply::refuse(failure.code, failure.message, failure.status);
 }
 
-/// "A/b/c" as segments behind the path of all signals.
+/// "A/b/c" as segments after the path of all signals.
 std::string hrefOf(const std::string& title) {
     std::string href = "/rw/iosystem/signals";
     for (const std::string& segment : splitPath(title))

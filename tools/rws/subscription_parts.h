@@ -13,7 +13,7 @@ struct Subscriptions::Wish {
     int priority = 1;
 };
 
-/// Where the events of a group go. On the network thread, except for its constants.
+/// The way of the events of a group to its socket. On the network thread, except for its constants.
 struct Subscriptions::Outlet {
     uint64_t id = 0, session = 0;
     Dialect dialect = Dialect::V1;

@@ -72,7 +72,7 @@ bool isMessage(const Entry& entry) {
 
 /// An entry of an event: the anchor of rel=self repeats what was subscribed.
 Entry eventEntry(Entry entry, Dialect dialect, const std::string& text) {
-    // Before it stands the anchor that the clients of these two read: the message of the log, the symbol without ";value".
+    // The first anchor is the one that the clients of these two read: the message of the log, the symbol without ";value".
     entry.links.clear();
     if (entry.type == "elog-message-ev" && !entry.self.empty())
         entry.links.emplace_back("message", entry.self);

@@ -200,7 +200,7 @@ Reply System::restart(const Request& request) {
     return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
 }
 
-/// `_value`: a path behind /fileservice/.
+/// `_value`: a path after /fileservice/.
 Reply System::environment(const Request& request) const {
     const std::string name = request.parameter("name");
     if (!name.starts_with('$') || !volumes_.has(name))

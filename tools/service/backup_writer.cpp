@@ -24,6 +24,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 namespace rapidc::service {
@@ -51,25 +52,54 @@ std::vector<rapid::edit::DataValue> valuesOf(const rt::ProgramTables& tables, in
     return values;
 }
 
-/// Modules of the backup that was loaded which nobody can read: they are kept as they are.
-std::vector<std::string> opaqueFilesOf(const VirtualController& controller, const std::string& task) {
-    std::vector<std::string> paths;
+/// The tasks that the backup lists from which the controller was started, each with its modules on the host.
+struct EarlierTask {
+    project::ListedTask listed;
+    std::vector<std::string> files;
+};
+std::vector<EarlierTask> earlierTasks(const VirtualController& controller) {
+    std::vector<EarlierTask> tasks;
     for (const std::string& input : controller.settings().inputs.paths) {
         std::string bytes;
         const fs::path info =
             project::isFolder(input) ? project::findPath(input, "BACKINFO/backinfo.txt") : fs::path();
         if (info.empty() || !rapid::config::readFile(info.string(), bytes).empty()) continue;
-        for (const project::ListedTask& listed : project::readBackupInfo(bytes).tasks) {
-            if (!sameName(listed.name, task)) continue;
+        for (project::ListedTask& listed : project::readBackupInfo(bytes).tasks) {
+            EarlierTask& task = tasks.emplace_back(EarlierTask{std::move(listed), {}});
             for (const char* part : {"PROGMOD", "SYSMOD"})
                 for (const fs::path& path :
-                     project::entries(project::findPath(input, "RAPID/" + listed.folder + "/" + part)))
-                    if (project::isModule(path) && rapid::config::readFile(path.string(), bytes).empty() &&
-                        SourceFile(path.string(), bytes).isEncrypted())
-                        paths.push_back(path.string());
+                     project::entries(project::findPath(input, "RAPID/" + task.listed.folder + "/" + part)))
+                    if (project::isModule(path) && !project::isFolder(path))
+                        task.files.push_back(path.string());
         }
     }
-    return paths;
+    return tasks;
+}
+
+bool isEncrypted(const std::string& path) {
+    std::string bytes;
+    return rapid::config::readFile(path, bytes).empty() && SourceFile(path, bytes).isEncrypted();
+}
+
+/// Encrypted modules are kept as they are, and so are tasks that the controller could not take.
+void keepEarlier(const VirtualController& controller, BackupContent& content) {
+    for (const EarlierTask& earlier : earlierTasks(controller)) {
+        const auto same =
+            std::find_if(content.tasks.begin(), content.tasks.end(), [&](const BackupContent::Task& task) {
+                return sameName(task.name, earlier.listed.name);
+            });
+        if (same != content.tasks.end()) {
+            same->program = earlier.listed.program;
+            std::copy_if(earlier.files.begin(), earlier.files.end(), std::back_inserter(same->opaqueFiles),
+                         isEncrypted);
+        } else if (earlier.listed.folder != "TASK0") {
+            BackupContent::Task& kept = content.tasks.emplace_back();
+            kept.name = earlier.listed.name;
+            kept.program = earlier.listed.program;
+            kept.isConfigured = true; // as far as it was
+            kept.opaqueFiles = earlier.files;
+        }
+    }
 }
 
 class Taker {
@@ -83,7 +113,6 @@ class Taker {
         const rt::ProgramDesc& program = controller_.core().program();
         taken.type = index < program.taskCount ? program.tasks[index].type : "NORMAL";
         taken.isMotionTask = task.isMotionTask();
-        taken.opaqueFiles = opaqueFilesOf(controller_, taken.name);
         takeCompiled(index, taken);
         takeLoaded(index, taken);
     }
@@ -260,7 +289,11 @@ class Writer {
         std::string info = fmt::format(
             "#\n# Generated backup file, do not edit.\n#\n# {}\n#\n>>SYSTEM_ID:\n{}\n\n>>PRODUCTS_ID:\n",
             time, content_.system.name);
-        info += fmt::format("RobotWare Version: {}\n\n", content_.robotWare.name);
+        info += fmt::format("RobotWare Version: {}\n", content_.robotWare.name);
+        for (const std::string& addIn : content_.system.addIns)
+            if (const std::size_t blank = addIn.rfind(' '); blank != std::string::npos)
+                info += fmt::format("{} Version: {}\n", addIn.substr(0, blank), addIn.substr(blank + 1));
+        info += '\n';
         for (const std::string& option : content_.system.options)
             info += fmt::format("  {}\n", option);
         const bool isListed = std::find(content_.system.options.begin(), content_.system.options.end(),
@@ -339,6 +372,7 @@ BackupContent takeBackup(VirtualController& controller, const ConfigurationStore
         content.tasks.back().isConfigured =
             configured.contains(rapid::config::upperCase(content.tasks.back().name));
     }
+    keepEarlier(controller, content);
     return content;
 }
 

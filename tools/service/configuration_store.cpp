@@ -250,7 +250,7 @@ std::vector<std::pair<std::string, std::string>> ConfigurationStore::files() con
 Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain, std::string_view type,
                                 const std::string& attribute, const std::string& value) const {
     if (!rapid::config::isCfgName(attribute))
-        return fmt::format("'{}' is no name of an attribute", attribute);
+        return fmt::format("'{}' is not a name of an attribute", attribute);
     if (!rapid::config::isCfgValue(value))
         return fmt::format("the value of {} has characters that a configuration cannot hold", attribute);
     const CfgType* known = cfgType(domain, type);
@@ -378,7 +378,7 @@ Refusal ConfigurationStore::set(const std::string& domain, std::string_view type
 
 Refusal ConfigurationStore::create(const std::string& domain, std::string_view type, const std::string& name,
                                    const CfgValues& values) {
-    if (!rapid::config::isCfgName(type)) return fmt::format("'{}' is no name of a type", type);
+    if (!rapid::config::isCfgName(type)) return fmt::format("'{}' is not a name of a type", type);
     if (name.empty() || !rapid::config::isCfgValue(name))
         return "the name of the instance is missing or not possible";
     if (find(domain, type, name)) return fmt::format("{} has an instance {} already", type, name);

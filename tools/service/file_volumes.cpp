@@ -45,7 +45,7 @@ bool isBareName(const std::string& name) {
 }
 
 FileResult badName(const std::string& name) {
-    return {FileProblem::Outside, fmt::format("'{}' is no name for a file or folder", name)};
+    return {FileProblem::Outside, fmt::format("'{}' is not a name for a file or folder", name)};
 }
 
 FileEntry entryOf(const std::string& name, const struct stat& status) {
@@ -121,7 +121,7 @@ FileResult FileVolumes::list(const std::string& path, std::vector<FileEntry>& en
         ::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     std::vector<std::string> names;
     if (!folder.isOpen() || !namesIn(folder.number(), names))
-        return {FileProblem::NoPath, fmt::format("{} is no folder", path)};
+        return {FileProblem::NoPath, fmt::format("{} is not a folder", path)};
     for (const std::string& name : names) {
         if (isUnfinished(name)) continue;
         struct stat status{};
@@ -154,7 +154,7 @@ FileResult FileVolumes::read(const std::string& path, std::string& bytes) const 
     if (!file.isOpen() || ::fstat(file.number(), &status) != 0)
         return {errno == EACCES ? FileProblem::Refused : FileProblem::NoPath,
                 fmt::format("{}: {}", path, std::strerror(errno))};
-    if (!S_ISREG(status.st_mode)) return {FileProblem::Refused, fmt::format("{} is no file", path)};
+    if (!S_ISREG(status.st_mode)) return {FileProblem::Refused, fmt::format("{} is not a file", path)};
     if (static_cast<uint64_t>(status.st_size) > kLargestRead)
         return {FileProblem::TooLarge, fmt::format("{} has more than {} bytes", path, kLargestRead)};
     bytes.resize(static_cast<std::size_t>(status.st_size));
@@ -179,7 +179,7 @@ FileResult FileVolumes::write(const std::string& path, std::string_view bytes, b
     if (place.name != "." && !isBareName(place.name)) return badName(place.name);
     isNew = !statusOf(place, status);
     if (place.name == "." || (!isNew && !S_ISREG(status.st_mode)))
-        return {FileProblem::Refused, fmt::format("{} is no file", path)};
+        return {FileProblem::Refused, fmt::format("{} is not a file", path)};
     if (!isNew && (status.st_mode & S_IWUSR) == 0)
         return {FileProblem::Refused, fmt::format("{} may not be written", path)};
     struct statvfs disk{};

@@ -45,7 +45,8 @@ int openNew(int folder, const std::string& name, Descriptor& file) {
     file = Descriptor(
         ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (!file.isOpen()) return errno;
-    (void)::flock(file.number(), LOCK_EX | LOCK_NB); // held while this process lives: it is no leftover
+    (void)::flock(file.number(),
+                  LOCK_EX | LOCK_NB); // held while this process lives: others do not take it for a leftover
     return 0;
 }
 

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace project = rapid::project;
 
-// What of RobotWare's options this controller simulates, under the names that clients look for.
+// Options of RobotWare that this controller simulates, under the names that clients look for.
 constexpr std::array<const char*, 8> kOptions = {
     "616-1 PC Interface",  "623-1 Multitasking",     "608-1 World Zones",
     "611-1 Path Recovery", "610-1 Independent Axis", "689-1 Externally Guided Motion (EGM)",
@@ -52,6 +52,7 @@ SystemFacts systemFacts(VirtualController& controller) {
         const project::BackupInfo backup = project::readBackupInfo(bytes);
         if (!backup.systemId.empty()) facts.name = backup.systemId;
         facts.options = backup.options;
+        facts.addIns = backup.addIns;
         break;
     }
     for (const rt::CfgInstance* option : core.instances("SYS", "PRESENT_OPTIONS"))

@@ -142,7 +142,7 @@ class VirtualController {
     bool isTimeRunning() const { return timeRunning_; }
 
   private:
-    /// What replaces the present controller.
+    /// Replacement of the present controller.
     struct Succession {
         std::unique_ptr<LoadedProgram> program; ///< null: the same
         std::string state;                      ///< "" = everything begins anew

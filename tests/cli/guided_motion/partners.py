@@ -85,15 +85,16 @@ def close(q, orient):
 
 def sessions(peer):
     """Counts the messages of each session, and looks whether they are numbered from 0 by one."""
-    counts, in_order = [], True
+    counts, in_order, ports = [], True, set()
     for message in peer.messages():
+        ports.add(peer.robot)
         number = message["header"]["seqno"]
         if number == 0:
             counts.append(0)
         in_order = in_order and number == counts[-1]
         counts[-1] += 1
         peer.send(axis_1(0))
-    print("sessions", len(counts), "in order", in_order, "none empty", min(counts) > 0)
+    print("sessions", len(counts), "in order", in_order, "none empty", min(counts) > 0, "one port", len(ports) == 1)
 
 
 BAD = {

@@ -88,7 +88,7 @@ TEST_CASE("Headers and bodies are bounded (serve-contract 15)", "[http]") {
     CHECK(chunks.status() == 413);
 }
 
-TEST_CASE("A body that nobody needs is counted and dropped", "[http]") {
+TEST_CASE("A body that is not needed is counted and dropped", "[http]") {
     RequestParser parser({});
     parser.feed(withHeader("Content-Length: 5\r\n") + "ab");
     (void)parser.takeHead();

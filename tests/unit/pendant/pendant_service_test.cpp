@@ -68,9 +68,10 @@ class Browser final : public http::WebSocket {
 class Served {
   public:
     Served() {
-        folder_.write("Main.modx", "MODULE Main\n  PROC main()\n    WaitTime 1;\n  ENDPROC\nENDMODULE\n");
+        folder_.write("Waiting.modx",
+                      "MODULE Waiting\n  PROC main()\n    WaitTime 1;\n  ENDPROC\nENDMODULE\n");
         service::Settings settings;
-        settings.inputs.paths = {(folder_.path / "Main.modx").string()};
+        settings.inputs.paths = {(folder_.path / "Waiting.modx").string()};
         settings.programStart = false;
         controller_ = std::make_unique<service::VirtualController>(std::move(settings));
         REQUIRE(controller_->open() == rt::ExitStatus::Ended);
@@ -86,6 +87,7 @@ class Served {
     ~Served() {
         controller_->shutDown();
         thread_.join();
+        service.reset(); // before what it uses
     }
     Served(const Served&) = delete;
     Served& operator=(const Served&) = delete;
@@ -114,8 +116,8 @@ class Served {
     std::unique_ptr<service::VirtualController> controller_;
     std::unique_ptr<service::EventJournal> journal_;
     std::unique_ptr<service::ManualMotion> manual_;
-    std::unique_ptr<service::ConfigurationStore> configuration_;
     service::FileVolumes volumes_;
+    std::unique_ptr<service::ConfigurationStore> configuration_;
     std::thread thread_;
 };
 

@@ -56,7 +56,7 @@ export class TopBar {
     }
 
     showProduct(product: string): void {
-        setText(this.version, product.replace(/^rapidc\s*/, ""));
+        this.version.title = product;
     }
 
     private layout(): HTMLElement {
@@ -76,6 +76,7 @@ export class TopBar {
     private listen(): void {
         this.model.on("all", (state) => {
             setText(this.controller, state.name);
+            setText(this.version, `RobotWare ${state.robotWare}`);
             this.showPanel(state.panel);
             this.showTime(state.time.t);
         });

@@ -66,7 +66,7 @@ export class Stage {
         const material = grid.material as LineBasicMaterial;
         material.transparent = true;
         material.opacity = 0.7;
-        this.floor.add(grid, frameAxes(0.25));
+        this.floor.add(grid, frameAxes(0.2));
         this.draw();
     }
 
@@ -74,7 +74,7 @@ export class Stage {
     lookAt(centre: Vector3, size: number, direction = new Vector3(1, -1.15, 0.62)): void {
         this.controls.target.copy(centre);
         const aspect = Math.min(1, this.camera.aspect);
-        const distance = (size / Math.tan((this.camera.fov * Math.PI) / 360) / aspect) * 0.62;
+        const distance = (size / Math.tan((this.camera.fov * Math.PI) / 360) / aspect) * 0.68;
         this.camera.position.copy(direction).normalize().multiplyScalar(distance).add(centre);
         this.controls.update();
         this.draw();

@@ -1,0 +1,75 @@
+// Tests of parts that need no browser. node --test test/parts.test.mjs
+
+import assert from "node:assert/strict";
+import { dirname, join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+
+async function load(path) {
+    const { outputFiles } = await build({ entryPoints: [join(here, "../src", path)], bundle: true, format: "esm", write: false, platform: "neutral", mainFields: ["module", "main"] });
+    return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
+}
+
+const { tokensOf } = await load("program/rapid_tokens.ts");
+const { Recorder, sampleAt, spanOf } = await load("recording/recorder.ts");
+const { eulerAngles } = await load("math/pose.ts");
+
+const kinds = (line) => tokensOf(line).filter(({ text }) => text.trim() !== "").map(({ kind, text }) => [kind, text.trim()]);
+
+test("a comment ends with its line, an exclamation mark in a string is no comment", () => {
+    assert.deepEqual(kinds('TPWrite "Done!"; ! well'), [["call", "TPWrite"], ["string", '"Done!"'], ["plain", ";"], ["comment", "! well"]]);
+});
+
+test("a doubled quote is part of the string (language: string literals)", () => {
+    assert.equal(tokensOf('s:="a""b";').find(({ kind }) => kind === "string").text, '"a""b"');
+});
+
+test("keywords and types in any case, tokens give the line back", () => {
+    assert.equal(kinds("endproc")[0][0], "keyword");
+    assert.equal(kinds("VAR NUM x")[1][0], "type");
+    for (const line of ["  MoveL Offs(p1,0,0,-1.5E-3),v100\\T:=2,fine,tool0;", "x{3}.trans.x:=@;", ""]) assert.equal(tokensOf(line).map(({ text }) => text).join(""), line);
+});
+
+/** A model that hands its events to the recorder. */
+function fakeModel() {
+    const listeners = {};
+    return { lastTime: 0, on: (name, listener) => { listeners[name] = listener; }, emit: (name, data) => listeners[name](data) };
+}
+
+const move = (t, index, joint) => ({ t, units: [[index, [joint], [], [0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 0], 10, 1]] });
+
+test("a start after a stop begins a new run; units at rest keep their sample", () => {
+    const model = fakeModel();
+    const recorder = new Recorder(model);
+    model.emit("all", { panel: { running: true } });
+    model.emit("motion", move(1, 0, 5));
+    model.emit("motion", move(2, 1, 7));
+    model.emit("panel", { running: false });
+    model.emit("panel", { running: true });
+    model.emit("motion", move(3, 0, 6));
+    assert.equal(recorder.runs.length, 2);
+    assert.deepEqual(recorder.runs[0].samples[1].units.map(({ joints }) => joints[0]), [5, 7]);
+    assert.deepEqual(spanOf(recorder.runs[0]), [1, 2]);
+    assert.equal(sampleAt(recorder.runs[0], 1.9), 0);
+    assert.equal(sampleAt(recorder.runs[0], 2), 1);
+});
+
+test("a signal begins with the value it had before its first change", () => {
+    const model = fakeModel();
+    const recorder = new Recorder(model);
+    model.emit("all", { panel: { running: true } });
+    model.emit("signals", [{ name: "do1", value: 1 }]);
+    model.emit("motion", move(1, 0, 0));
+    model.lastTime = 4;
+    model.emit("signal", [["do1", 0, 0]]);
+    assert.deepEqual(recorder.current.signals.get("do1"), [{ t: 1, value: 1 }, { t: 4, value: 0 }]);
+});
+
+test("angles of a pose: a quarter turn about z", () => {
+    const half = Math.SQRT1_2;
+    const [x, y, z] = eulerAngles([0, 0, 0, half, 0, 0, half]);
+    assert.ok(Math.abs(x) < 1e-9 && Math.abs(y) < 1e-9 && Math.abs(z - 90) < 1e-9);
+});
