@@ -41,7 +41,7 @@ struct RoutineLowering::CallSearch {
 
     const sema::Module& module;
     size_t rows = 0;          ///< of an IF: conditions that have been visited
-    int earlier = 0; ///< effects of the conditions ahead, which are evaluated again
+    int earlier = 0;          ///< effects of the conditions ahead, which are evaluated again
     int routines = 0;         ///< calls of routines of the program
     int effects = 0;          ///< calls with an effect, those included
     bool effectAhead = false; ///< a native with an effect is called before the first routine

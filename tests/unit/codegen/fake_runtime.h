@@ -27,7 +27,8 @@ std::vector<codegen::NativeSymbol> symbols();
 
 /// Runs all passes and compiles. Fails the test when something is wrong. `interpreted`: every routine is; it must not call the
 /// runtime then, since the interpreter calls the real one.
-std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise = true, bool interpreted = false);
+std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise = true,
+                                             bool interpreted = false);
 
 /// C entry of an exported routine.
 void* entry(const codegen::JitProgram& program, const std::string& name);

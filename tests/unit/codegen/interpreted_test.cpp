@@ -18,8 +18,8 @@ template <class T, class R> using Binary = rt::Status (*)(rt::TaskCore*, rt::Fra
 
 std::string binary(const std::string& type, const std::string& result, const std::string& lines) {
     return "routine @\"r\" \"r\" in \"M\" exported " + result + " (" + type + " \"a\", " + type +
-           " \"b\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n    %a = param 0\n    %b = param 1\n" + lines +
-           "    ret %r\n}\n";
+           " \"b\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n    %a = param 0\n    %b = param 1\n" +
+           lines + "    ret %r\n}\n";
 }
 
 template <class T, class R> R call(const codegen::JitProgram& program, T a, T b) {
@@ -54,7 +54,8 @@ template <class T> std::vector<T> integers() {
 
 TEST_CASE("interpreted integers wrap as compiled ones do", "[codegen][interpreted]") {
     const std::string safe = "%one = const TYPE 1\n%nonzero = or %b, %one\n";
-    for (const char* op : {"iadd", "isub", "imul", "and", "or", "xor", "shl", "shr", "sar", "idiv", "irem", "udiv", "urem"}) {
+    for (const char* op :
+         {"iadd", "isub", "imul", "and", "or", "xor", "shl", "shr", "sar", "idiv", "irem", "udiv", "urem"}) {
         const std::string lines = safe + "%r = " + op + " %a, %nonzero\n";
         std::string narrow = lines, wide = lines;
         narrow.replace(narrow.find("TYPE"), 4, "i32");
@@ -67,7 +68,8 @@ TEST_CASE("interpreted integers wrap as compiled ones do", "[codegen][interprete
 
 TEST_CASE("interpreted comparisons and choices", "[codegen][interpreted]") {
     for (const char* op : {"ieq", "ine", "ilt", "ile", "igt", "ige", "iult", "iule", "iugt", "iuge"})
-        compare<int32_t, uint8_t>("i32", "bool", std::string("%r = ") + op + " %a, %b\n", integers<int32_t>());
+        compare<int32_t, uint8_t>("i32", "bool", std::string("%r = ") + op + " %a, %b\n",
+                                  integers<int32_t>());
     const std::vector<float> numbers{0.0f, -0.0f, 1.5f, -2.25f, 1e30f, 3e9f, -3e9f};
     for (const char* op : {"feq", "fne", "flt", "fle", "fgt", "fge"})
         compare<float, uint8_t>("f32", "bool", std::string("%r = ") + op + " %a, %b\n", numbers);
@@ -76,7 +78,8 @@ TEST_CASE("interpreted comparisons and choices", "[codegen][interpreted]") {
 
 TEST_CASE("interpreted numbers and conversions", "[codegen][interpreted]") {
     const float infinite = std::numeric_limits<float>::infinity();
-    const std::vector<float> numbers{0.0f, -0.0f, 1.5f, -2.75f, 1e30f, -1e30f, 3e9f, 16777217.0f, infinite, -infinite};
+    const std::vector<float> numbers{0.0f,   -0.0f, 1.5f,        -2.75f,   1e30f,
+                                     -1e30f, 3e9f,  16777217.0f, infinite, -infinite};
     for (const char* op : {"fadd", "fsub", "fmul", "fdiv"})
         compare<float>("f32", "f32", std::string("%r = ") + op + " %a, %b\n", numbers);
     compare<float>("f32", "f32", "%c = fneg %a\n%d = ftrunc %b\n%r = fadd %c, %d\n", numbers);
@@ -85,15 +88,17 @@ TEST_CASE("interpreted numbers and conversions", "[codegen][interpreted]") {
         for (const char* op : {"ftosi", "ftoui"}) {
             const std::string narrow = std::string("%c = fsub %a, %b\n%d = ") + op + " " + to + " %c\n";
             const bool isWide = std::string(to) == "i64";
-            compare<float, int64_t>("f32", "i64", narrow + (isWide ? "%z = const i64 0\n%r = iadd %d, %z\n" : "%r = zext i64 %d\n"),
-                                    numbers);
+            compare<float, int64_t>(
+                "f32", "i64",
+                narrow + (isWide ? "%z = const i64 0\n%r = iadd %d, %z\n" : "%r = zext i64 %d\n"), numbers);
         }
     compare<double, double>("f64", "f64", "%c = fnarrow f32 %a\n%d = fwiden f64 %c\n%r = fmul %d, %b\n",
                             {0.1, -7.25, 1e-40, 1e300});
     for (const char* op : {"sitof", "uitof"})
         compare<int64_t, float>("i64", "f32", std::string("%c = isub %a, %b\n%r = ") + op + " f32 %c\n",
                                 integers<int64_t>());
-    compare<int32_t, int64_t>("i32", "i64", "%c = trunc i8 %a\n%d = sext i64 %c\n%e = zext i64 %b\n%r = iadd %d, %e\n",
+    compare<int32_t, int64_t>("i32", "i64",
+                              "%c = trunc i8 %a\n%d = sext i64 %c\n%e = zext i64 %b\n%r = iadd %d, %e\n",
                               integers<int32_t>());
 }
 
@@ -103,7 +108,8 @@ TEST_CASE("interpreted routines call each other, loop, and use memory", "[codege
     CHECK(program->program()->routineCount == compiled->program()->routineCount);
 }
 
-TEST_CASE("values of one block share slots: a long routine needs no more memory than a short one", "[codegen][interpreted]") {
+TEST_CASE("values of one block share slots: a long routine needs no more memory than a short one",
+          "[codegen][interpreted]") {
     const auto bytes = [](int additions) {
         std::string lines = "%v0 = iadd %a, %b\n";
         for (int i = 0; i < additions; ++i)
