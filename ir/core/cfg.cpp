@@ -10,7 +10,7 @@ namespace {
 
 void addEdge(Cfg& cfg, BlockId from, BlockId to) {
     if (to >= cfg.succs.size()) return;
-    std::vector<BlockId>& succs = cfg.succs[from];
+    BlockList& succs = cfg.succs[from];
     if (std::find(succs.begin(), succs.end(), to) != succs.end()) return;
     succs.push_back(to);
     cfg.preds[to].push_back(from);

@@ -1,6 +1,8 @@
 #pragma once
 // Control flow of a routine: successors, reverse postorder, dominators, loops.
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "ir/core/ir.h"
@@ -14,8 +16,61 @@ std::vector<BlockId> successors(const Routine& routine, BlockId block);
 /// Const.
 bool mayRaise(const Module& module, const Inst& inst);
 
+/// A list of blocks; most have one or two, which lie in the object itself: routines may have millions of blocks.
+class BlockList {
+  public:
+    BlockList() = default;
+    BlockList(const BlockList& other) {
+        for (const BlockId block : other)
+            push_back(block);
+    }
+    BlockList(BlockList&& other) noexcept { swap(other); }
+    BlockList& operator=(BlockList other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~BlockList() {
+        if (isLong()) delete[] many_;
+    }
+
+    size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const BlockId* begin() const { return isLong() ? many_ : few_; }
+    const BlockId* end() const { return begin() + size_; }
+    BlockId operator[](size_t i) const { return begin()[i]; }
+    void push_back(BlockId block) {
+        if (size_ == capacity_) grow();
+        (isLong() ? many_ : few_)[size_++] = block;
+    }
+
+  private:
+    static constexpr uint32_t kFew = 2;
+
+    bool isLong() const { return capacity_ > kFew; }
+    void grow() {
+        BlockId* const more = new BlockId[size_t{2} * capacity_];
+        std::copy(begin(), end(), more);
+        if (isLong()) delete[] many_;
+        many_ = more;
+        capacity_ *= 2;
+    }
+    void swap(BlockList& other) noexcept {
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+        std::swap(content_, other.content_);
+    }
+
+    uint32_t size_ = 0, capacity_ = kFew;
+    union {
+        BlockId few_[kFew];
+        BlockId* many_;
+        uint64_t content_ = 0;
+    };
+    static_assert(sizeof(few_) == sizeof(uint64_t) && sizeof(many_) <= sizeof(uint64_t));
+};
+
 struct Cfg {
-    std::vector<std::vector<BlockId>> succs, preds;
+    std::vector<BlockList> succs, preds;
     std::vector<BlockId> order;     ///< reachable blocks in reverse postorder
     std::vector<uint32_t> position; ///< index into `order`; kNone = unreachable
     std::vector<BlockId> idom;      ///< immediate dominator; kNone for roots and unreachable blocks

@@ -21,7 +21,7 @@ struct PassOptions {
 
 /// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints on all routines. Returns the
 /// verifier's findings, each prefixed with the pass after which it appeared ("input: " when the module came in broken);
-/// empty = fine. Stops at the first pass with findings.
+/// empty = fine. Stops at the first pass with findings. Huge routines are verified before the passes and after the last one.
 std::vector<std::string> runPasses(Module& module, const PassOptions& options);
 
 /// The same for one routine. Parts outside of routines are not verified (verifyTables).

@@ -22,7 +22,7 @@ import lsp_bench
 GOAL_MEAN, GOAL_WORST = 1.15, 2.0  # beside C
 GOAL_OVERFLOW = 1.03  # checked arithmetic beside the same without checks, in the mean
 GOAL_HELLO_MS, GOAL_LIGHT_MS = 25, 10  # a program; commands that compile nothing
-ALONE = (["check"], ["tasks"], ["sockets"], ["start"], ["overflow"], ["compile"], ["files"], ["lsp"])  # parts that can be asked for by name
+ALONE = (["check"], ["tasks"], ["sockets"], ["start"], ["overflow"], ["compile"], ["huge"], ["files"], ["lsp"])  # parts that can be asked for by name
 GOAL_LINES, GOAL_CLANG, GOAL_MB, GOAL_EDIT_MS = 1_000_000, 10, 1024, 10
 GOAL_WRITE_MB_S = 20
 GOAL_PACK_NS = 60
@@ -260,7 +260,7 @@ def sockets(rapidc, work, rounds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="only these programs; start: only the start-up; "
-                                                 "overflow: only what the checks of overflow cost; compile: only the time that compiling takes; check: only the checker; "
+                                                 "overflow: only what the checks of overflow cost; compile: only the time that compiling takes; huge: only that of huge procedures; check: only the checker; "
                                                  "tasks: only the scheduler; files: only files and rawbytes; sockets: only messages between tasks; lsp: only the language server")
     parser.add_argument("--rapidc", default=os.path.join(HERE, "..", "..", "build", "rapidc"))
     parser.add_argument("--rounds", type=int, default=5)
@@ -281,6 +281,9 @@ def main():
         return 0
     if options.names == ["compile"]:
         compile_bench.run(rapidc, work)
+        return 0
+    if options.names == ["huge"]:
+        compile_bench.huge_procedures(rapidc, work)
         return 0
     if options.names == ["lsp"]:
         lsp_bench.run(rapidc, work)

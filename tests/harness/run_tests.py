@@ -113,7 +113,7 @@ def main():
     parser.add_argument("--one", help="run exactly this test")
     parser.add_argument("--update", action="store_true", help="rewrite expected output")
     parser.add_argument("--modes", default=os.environ.get("RAPIDC_TEST_MODES", "jit parts aot step"),
-                        help="modes of running programs (default: $RAPIDC_TEST_MODES, else all)")
+                        help="modes of running programs (default: $RAPIDC_TEST_MODES, else jit parts aot step)")
     parser.add_argument("-j", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--within", metavar="SECONDS", type=float,
                         help="begin no further test after this time; exit status 124 when that leaves some out")
