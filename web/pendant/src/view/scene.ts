@@ -7,7 +7,9 @@ import { palette, type Palette } from "./palette";
 
 const slowFrame = 45; // ms; above it the picture gets coarser
 const fastFrame = 18; // ms; below it finer again
-const coarsest = 0.5;
+const coarsest = 0.6;
+const restAfter = 250; // ms without a new frame; then the picture is drawn once in full resolution
+const softwareRest = 1.6; // pixels per point of that picture where edges are not smoothed otherwise
 
 /** Whether this computer draws WebGL with its processor: then smooth edges and glossy surfaces cost too much. */
 function drawsInSoftware(): boolean {
@@ -41,6 +43,8 @@ export class Stage {
     private ratio = Math.min(window.devicePixelRatio, 2);
     private readonly finest = Math.min(window.devicePixelRatio, 2);
     private sinceChange = 0;
+    private resting = false;
+    private rest = 0;
     colours: Palette = palette();
 
     constructor(readonly canvas: HTMLCanvasElement) {
@@ -92,8 +96,7 @@ export class Stage {
     resize(): void {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         if (width === 0 || height === 0) return;
-        this.renderer.setPixelRatio(this.ratio);
-        this.renderer.setSize(width, height, false);
+        this.setRatio(this.ratio);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
         this.draw();
@@ -109,12 +112,34 @@ export class Stage {
     }
 
     private render(): void {
+        if (this.resting) {
+            this.resting = false;
+            this.setRatio(this.ratio);
+        }
+        clearTimeout(this.rest);
+        this.rest = window.setTimeout(() => this.renderAtRest(), restAfter);
         this.onFrame();
         this.renderer.render(this.scene, this.camera);
         this.onDrawn();
         // the graphics processor works on its own: only the time until the browser offers the next frame shows how long it takes
         const started = performance.now();
         requestAnimationFrame(() => this.measure(performance.now() - started));
+    }
+
+    /** One picture without haste. */
+    private renderAtRest(): void {
+        const ratio = this.software ? this.finest * softwareRest : this.finest;
+        if (ratio <= this.ratio) return;
+        this.resting = true;
+        this.setRatio(ratio);
+        this.renderer.render(this.scene, this.camera);
+    }
+
+    private setRatio(ratio: number): void {
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        if (width === 0 || height === 0) return;
+        this.renderer.setPixelRatio(ratio);
+        this.renderer.setSize(width, height, false);
     }
 
     private measure(duration: number): void {
