@@ -8,8 +8,7 @@ import { palette, type Palette } from "./palette";
 const slowFrame = 45; // ms; above it the picture gets coarser
 const fastFrame = 18; // ms; below it finer again
 const coarsest = 0.6;
-const restAfter = 250; // ms without a new frame; then the picture is drawn once in full resolution
-const softwareRest = 1.6; // pixels per point of that picture where edges are not smoothed otherwise
+const restAfter = 500; // ms without a new frame; then the picture is drawn once in full resolution
 
 /** Whether this computer draws WebGL with its processor: then smooth edges and glossy surfaces cost too much. */
 function drawsInSoftware(): boolean {
@@ -128,10 +127,9 @@ export class Stage {
 
     /** One picture without haste. */
     private renderAtRest(): void {
-        const ratio = this.software ? this.finest * softwareRest : this.finest;
-        if (ratio <= this.ratio) return;
+        if (this.finest <= this.ratio) return;
         this.resting = true;
-        this.setRatio(ratio);
+        this.setRatio(this.finest);
         this.renderer.render(this.scene, this.camera);
     }
 
