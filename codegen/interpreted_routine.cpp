@@ -29,7 +29,8 @@ class InterpretedRoutine {
         }
         b_.SetInsertPoint(block("entry"));
         auto* frame = b_.CreateAlloca(abi::structType<rt::SteppingFrame>(m_.context()), nullptr, "frame");
-        auto* memory = b_.CreateAlloca(llvm::ArrayType::get(b_.getInt8Ty(), std::max(words_.bytes, 8U)), nullptr, "memory");
+        auto* memory = b_.CreateAlloca(llvm::ArrayType::get(b_.getInt8Ty(), std::max(words_.bytes, 8U)),
+                                       nullptr, "memory");
         memory->setAlignment(llvm::Align(16));
         llvm::Value* const task = function_->getArg(0);
         abi::storeField<&rt::Frame::caller>(b_, frame, function_->getArg(1));
@@ -67,9 +68,9 @@ class InterpretedRoutine {
 
     /// Memory below the frame record counts, too: it may be large.
     void checkStack(Value* task, Value* frame, Value* memory) {
-        auto* limit = b_.CreateLoad(b_.getInt64Ty(),
-                                    b_.CreateConstInBoundsGEP1_64(b_.getInt8Ty(), task,
-                                                                  abi::kOffsetOf<&rt::TaskCore::stackLimit>));
+        auto* limit = b_.CreateLoad(
+            b_.getInt64Ty(),
+            b_.CreateConstInBoundsGEP1_64(b_.getInt8Ty(), task, abi::kOffsetOf<&rt::TaskCore::stackLimit>));
         llvm::BasicBlock *enough = block("enough"), *overflow = block("overflow");
         b_.CreateCondBr(b_.CreateICmpUGE(b_.CreatePtrToInt(memory, b_.getInt64Ty()), limit), enough, overflow,
                         m_.unlikely());
@@ -135,8 +136,9 @@ class InterpretedRoutine {
         for (const WordPointer& pointer : words_.pointers)
             pointers.push_back(address(pointer));
         if (pointers.empty()) pointers.push_back(llvm::ConstantPointerNull::get(b_.getPtrTy()));
-        auto* const table = constant(
-            llvm::ConstantArray::get(llvm::ArrayType::get(b_.getPtrTy(), pointers.size()), pointers), "pointers");
+        auto* const table =
+            constant(llvm::ConstantArray::get(llvm::ArrayType::get(b_.getPtrTy(), pointers.size()), pointers),
+                     "pointers");
         using Code = rt::InterpretedCode;
         return constant(abi::Row<Code>(m_.context())
                             .set<&Code::words>(numbers(words_.words, "words"))
@@ -222,7 +224,8 @@ class InterpretedRoutine {
         if (!isConst) args.push_back(function->getArg(0));
         if (!isConst && byValue) args.push_back(function->getArg(3));
         for (size_t next = 0; args.size() < target->arg_size(); ++next)
-            args.push_back(argument(b, function, next, target->getArg(static_cast<unsigned>(args.size()))->getType()));
+            args.push_back(
+                argument(b, function, next, target->getArg(static_cast<unsigned>(args.size()))->getType()));
         llvm::CallInst* const call = b.CreateCall(target, args);
         if (!isConst) {
             b.CreateRet(call);
@@ -249,9 +252,8 @@ bool isInterpreted(const ir::Module& module, const ir::Routine& routine, const C
     if (routine.isDetachedHandler) return false;
     const size_t size = routine.insts.size();
     const auto fits = [&] {
-        return std::all_of(routine.insts.begin(), routine.insts.end(), [](const ir::Inst& inst) {
-            return inst.operands.size() <= rt::kMostWordCount;
-        });
+        return std::all_of(routine.insts.begin(), routine.insts.end(),
+                           [](const ir::Inst& inst) { return inst.operands.size() <= rt::kMostWordCount; });
     };
     if (options.interpretsAll || size >= kHuge) return fits();
     return size >= kLong && isPacedByNatives(module, routine, options.bodies) && fits();

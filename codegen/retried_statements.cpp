@@ -26,7 +26,8 @@ std::vector<bool> undoBlocks(const ir::Routine& routine) {
     return result;
 }
 
-std::vector<bool> failingStatements(const ir::Module& module, const ir::Routine& routine, const ir::Cfg& cfg) {
+std::vector<bool> failingStatements(const ir::Module& module, const ir::Routine& routine,
+                                    const ir::Cfg& cfg) {
     if (routine.errorHandler == ir::kNone) return {};
     // A handler with a list takes errors of interrupt routines, too, which run at safepoints anywhere.
     const bool anywhere = !routine.errorFilter.empty() || !routine.errorFilterGlobals.empty();

@@ -114,6 +114,10 @@ WordWriter::WordWriter(const ir::Module& module, const ir::Routine& routine, siz
       slotCount_(static_cast<uint32_t>(routine.params.size())) {
     findLastUses();
     out_.words.reserve(routine.insts.size() * 4);
+    if (cfg_.order[0] != 0) { // handlers may come before the entry
+        put(Op::Jump);
+        place(0);
+    }
     for (size_t i = 0; i < cfg_.order.size(); ++i) {
         following_ = i + 1 < cfg_.order.size() ? cfg_.order[i + 1] : ir::kNone;
         block(cfg_.order[i]);
@@ -295,9 +299,9 @@ void WordWriter::leaf(const ir::Inst& inst) {
             return number(static_cast<int32_t>(std::bit_cast<uint32_t>(static_cast<float>(inst.number))));
         if (inst.type == ir::kF64) return number(std::bit_cast<int64_t>(inst.number));
         if (inst.type == ir::kBool) return number(inst.integer != 0 ? 1 : 0);
-        return number(inst.type == ir::kPtr ? 0
-                                            : ir::signExtended(static_cast<uint64_t>(inst.integer),
-                                                               ir::bitsOf(inst.type)));
+        return number(inst.type == ir::kPtr
+                          ? 0
+                          : ir::signExtended(static_cast<uint64_t>(inst.integer), ir::bitsOf(inst.type)));
     case ir::LeafOp::ParamVal:
         put(Op::Move);
         put(made_);

@@ -72,7 +72,7 @@ class WordWriter {
     std::vector<uint32_t> free_;        ///< slots
     std::vector<uint32_t> begins_;      ///< by block: place
     std::vector<std::pair<size_t, ir::BlockId>> jumps_;
-    std::vector<size_t> places_; ///< words with the number of a local
+    std::vector<size_t> places_;              ///< words with the number of a local
     std::map<WordPointer, uint32_t> numbers_; ///< of out_.pointers
     uint32_t slotCount_ = 0, made_ = rt::kNoSlot;
     ir::BlockId current_ = 0, following_ = ir::kNone;

@@ -13,14 +13,16 @@ constexpr std::size_t kWidth = 80; // columns, as controllers write them
 constexpr std::string_view kIndent = "      ";
 
 bool isBare(std::string_view value) {
-    const bool isAttribute = value.size() > 1 && value[0] == '-' && std::isalpha(static_cast<unsigned char>(value[1])) != 0;
+    const bool isAttribute =
+        value.size() > 1 && value[0] == '-' && std::isalpha(static_cast<unsigned char>(value[1])) != 0;
     return !value.empty() && !isAttribute && value.find_first_of(" \t,\"\\#") == std::string_view::npos;
 }
 
 std::string attributeText(const CfgAttribute& attribute) {
     std::string text = "-" + attribute.name + " ";
-    const bool isQuoted = attribute.quoted || !std::all_of(attribute.values.begin(), attribute.values.end(),
-                                                           [](const std::string& value) { return isBare(value); });
+    const bool isQuoted =
+        attribute.quoted || !std::all_of(attribute.values.begin(), attribute.values.end(),
+                                         [](const std::string& value) { return isBare(value); });
     for (std::size_t i = 0; i < attribute.values.size(); ++i) {
         if (i > 0) text += ',';
         text += isQuoted ? '"' + attribute.values[i] + '"' : attribute.values[i];
@@ -48,12 +50,15 @@ std::string instanceText(const CfgInstance& instance) {
 } // namespace
 
 bool isCfgValue(std::string_view text) {
-    return text.size() <= 1000 && std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f || c == '"'; });
+    return text.size() <= 1000 && std::none_of(text.begin(), text.end(), [](unsigned char c) {
+               return c < 0x20 || c == 0x7f || c == '"';
+           });
 }
 
 bool isCfgName(std::string_view text) {
     return !text.empty() && text.size() <= 80 && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-           std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
+           std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
 }
 
 std::string writeCfg(const CfgFile& file) {

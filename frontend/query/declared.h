@@ -1,5 +1,5 @@
 #pragma once
-// What a module declares outside its routines.
+// Declarations of a module outside its routines.
 
 #include "frontend/sema/checked.h"
 

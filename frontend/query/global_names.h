@@ -27,7 +27,7 @@ class GlobalNames {
     struct OfModule {
         const sema::Module* module = nullptr;
         uint32_t stamp = 0;                     ///< of the check that made its symbols
-        std::weak_ptr<sema::FileSymbols> owner; ///< tells apart checks of different programs
+        std::weak_ptr<sema::FileSymbols> owner; ///< separates checks of different programs
         std::vector<const std::string*> names;  ///< keys of the table
         bool repeats = false;                   ///< the module declares a name twice
 

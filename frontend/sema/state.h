@@ -32,8 +32,8 @@ struct State {
     std::vector<std::string> taskNames;
     std::vector<Symbol*> predefined;                  ///< by NameId
     std::vector<std::unique_ptr<ModuleScope>> scopes; ///< by Module::id
-    bool keepsFacts = false; ///< facts are kept when other files change: they must not share memory
-    uint32_t lastStamp = 0;  ///< of a check of a file
+    bool keepsFacts = false;    ///< facts are kept when other files change: they must not share memory
+    uint32_t lastStamp = 0;     ///< of a check of a file
     NameId guest = 0, host = 0; ///< Session::setGuest, when there is one
     bool hasGuest = false;
 

@@ -48,7 +48,7 @@ struct Compilation {
     std::vector<std::string> usageErrors;   ///< e.g. a --task that cannot be read
     bool loaded = false;                    ///< options could be read: there is something to check
     bool callsByName = false;               ///< a debugger will evaluate expressions that call routines
-    bool keepsPredefined = false;          ///< clients will read and write predefined data by name
+    bool keepsPredefined = false;           ///< clients will read and write predefined data by name
     bool overflowChecks = true;             ///< off in benchmarks that measure what they cost
     std::string folder;                     ///< kept in the program: where relative paths begin; may be empty
     std::string homeFolder;                 ///< HOME of a backup; empty if there is none

@@ -122,6 +122,10 @@ void readTaskSettings(Compilation& compilation) {
     for (size_t i = 0; i < compilation.configTexts.size(); ++i) {
         std::vector<CfgProblem> ignored;
         const CfgFile cfg = config::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);
+        for (const CfgSection* section : cfg.find("SYSSIG_IN"))
+            for (const CfgInstance& input : section->instances)
+                if (config::sameName(input.text("Action"), "Interrupt"))
+                    compilation.eventRoutines.insert(config::lowerCase(input.text("Arg1")));
         if (config::upperCase(cfg.domain) != "SYS") continue;
         for (const CfgSection* section : cfg.find("CAB_EXEC_HOOKS"))
             for (const CfgInstance& hook : section->instances)
@@ -163,8 +167,9 @@ void checkRobot(Compilation& compilation, const Environment& environment, const 
     }
     if (robot.empty()) return;
     if (!environment.robotProblem(robot).empty())
-        compilation.sink.report(say::RobotUnknown, nullptr, {},
-                                {robot, "a model like it takes its place when there is one; --robot names another one"});
+        compilation.sink.report(
+            say::RobotUnknown, nullptr, {},
+            {robot, "a model like it takes its place when there is one; --robot names another one"});
 }
 
 std::set<std::string> namedByConfiguration(const Compilation& compilation) {

@@ -25,12 +25,14 @@ class SemiNca {
         for (uint32_t i = 0; i < count; ++i)
             label_[i] = semi_[i] = i;
         idom_ = parent_;
+        depth_.assign(count, 0);
+        jump_.assign(count, 0);
         for (uint32_t node = count - 1; node > 0; --node)
             semi_[node] = semidominator(node);
         std::vector<BlockId> result(cfg_.succs.size(), kNone);
         for (uint32_t node = 1; node < count; ++node) {
-            while (idom_[node] > semi_[node])
-                idom_[node] = idom_[idom_[node]];
+            idom_[node] = ancestor(idom_[node], semi_[node]);
+            hang(node);
             result[blocks_[node]] = blocks_[idom_[node]];
         }
         return result;
@@ -92,11 +94,27 @@ class SemiNca {
         return label_[above];
     }
 
+    /// The first node on the way up from `node` in the tree of dominators whose number is at most `most`. Ways are long in chains of
+    /// conditions, which is why nodes know others further up.
+    uint32_t ancestor(uint32_t node, uint32_t most) const {
+        while (node > most)
+            node = jump_[node] > most ? jump_[node] : idom_[node];
+        return node;
+    }
+
+    /// Myers, "An applicative random-access stack": a way up has a logarithm of jumps.
+    void hang(uint32_t node) {
+        const uint32_t above = idom_[node], far = jump_[above];
+        depth_[node] = depth_[above] + 1;
+        const bool isEven = depth_[above] - depth_[far] == depth_[far] - depth_[jump_[far]];
+        jump_[node] = isEven ? jump_[far] : above;
+    }
+
     const Cfg& cfg_;
     std::vector<uint32_t> number_; ///< by block; 0: not reached
     std::vector<bool> isRoot_;
     std::vector<BlockId> blocks_{kNone}; ///< by number, as the rest
-    std::vector<uint32_t> parent_{0}, label_, semi_, idom_, way_;
+    std::vector<uint32_t> parent_{0}, label_, semi_, idom_, way_, depth_, jump_;
 };
 
 } // namespace

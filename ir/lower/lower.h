@@ -27,7 +27,7 @@ struct Options {
     bool callsByName = false;
     /// Everything predefined is in memory, whether the program uses it or not: clients read and write it by name.
     bool keepsPredefined = false;
-    /// Procedures that the configuration connects with system events: reachable by name at run time. Lower case.
+    /// Procedures that the configuration connects with system events or a signal: reachable by name at run time. Lower case.
     std::set<std::string> eventRoutines;
     /// Is this routine called from outside the program (a test)? Then it is found by name. Empty: none is.
     std::function<bool(const sema::RoutineSymbol&)> calledFromOutside;

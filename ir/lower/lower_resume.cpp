@@ -40,6 +40,8 @@ struct RoutineLowering::CallSearch {
     explicit CallSearch(const sema::Module& in) : module(in) {}
 
     const sema::Module& module;
+    size_t rows = 0;          ///< of an IF: conditions that have been visited
+    int earlier = 0;          ///< effects of the conditions ahead, which are evaluated again
     int routines = 0;         ///< calls of routines of the program
     int effects = 0;          ///< calls with an effect, those included
     bool effectAhead = false; ///< a native with an effect is called before the first routine
@@ -102,30 +104,37 @@ struct RoutineLowering::CallSearch {
 
 /// `row`: 0, or the number of the condition of an IF.
 uint8_t RoutineLowering::resumeFlags(const Stmt& stmt, size_t row) const {
-    CallSearch search(*module_);
-    search.collectShared(stmt);
-    int earlier = 0; // effects of the conditions ahead, which are evaluated again
+    // The rows of one IF are asked for in their order, with those of the statements in it in between.
+    std::shared_ptr<CallSearch>& kept = searches_[&stmt];
+    if (!kept || row == 0) {
+        kept = std::make_shared<CallSearch>(*module_);
+        kept->collectShared(stmt);
+    }
+    const std::shared_ptr<CallSearch> current = kept;
+    CallSearch& search = *current;
     if (stmt.kind == NodeKind::If) {
         const auto& branches = as<IfStmt>(stmt).branches;
-        for (size_t i = 0; i <= row && i < branches.size(); ++i) {
-            earlier = search.effects;
+        for (; search.rows <= row && search.rows < branches.size(); ++search.rows) {
+            search.earlier = search.effects;
             search.changeable =
                 false; // what the conditions ahead decide is noticed when it is another branch now
-            if (branches[i]->condition) search.visit(*branches[i]->condition);
+            if (branches[search.rows]->condition) search.visit(*branches[search.rows]->condition);
         }
+        if (search.rows == branches.size()) searches_.erase(&stmt);
     } else if (stmt.kind == NodeKind::Assign) {
         search.visitTarget(*as<AssignStmt>(stmt).target);
         search.visit(*as<AssignStmt>(stmt).value);
     } else {
         search.visit(stmt);
     }
+    if (stmt.kind != NodeKind::If) searches_.erase(&stmt);
     const auto found = facts().calls.find(&stmt);
     const bool polls = found != facts().calls.end() && found->second.routine &&
                        std::any_of(found->second.routine->params.begin(), found->second.routine->params.end(),
                                    [](const DataSymbol* param) { return param->deferred; });
     uint8_t flags = 0;
-    if (earlier == 0 && (search.effects <= 1 || polls)) flags |= ir::kStmtRepeatable;
-    if (earlier == 0 && search.routines == 1 && !search.effectAhead && !search.changeable)
+    if (search.earlier == 0 && (search.effects <= 1 || polls)) flags |= ir::kStmtRepeatable;
+    if (search.earlier == 0 && search.routines == 1 && !search.effectAhead && !search.changeable)
         flags |= ir::kStmtReenterable;
     return flags;
 }

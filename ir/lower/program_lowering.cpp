@@ -499,10 +499,7 @@ void ProgramLowering::lowerTask(uint32_t index) {
 
 /// Modules that come later may have trap routines, event routines and error handlers of callers are executed in between.
 void ProgramLowering::findCopies() {
-    const bool hooks =
-        std::any_of(options_.configTexts.begin(), options_.configTexts.end(),
-                    [](const auto& text) { return text.find("CAB_EXEC_HOOKS") != std::string::npos; });
-    copies_.emplace(program_, unit_ || erases_ || hooks, continuesAtUserLevel_);
+    copies_.emplace(program_, unit_ || erases_ || !options_.eventRoutines.empty(), continuesAtUserLevel_);
 }
 
 bool ProgramLowering::run() {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
@@ -316,6 +317,8 @@ class RoutineLowering {
     std::unordered_map<const sema::DataSymbol*, Slot> slots_;
     SharedData shared_;
     const RoutineLowering* body_ = nullptr; ///< detached handler: of its routine
+    mutable std::unordered_map<const syntax::Stmt*, std::shared_ptr<CallSearch>>
+        searches_; ///< of resumeFlags
     std::unordered_map<const syntax::Node*, ir::BlockId> labels_;
     std::vector<LoopTargets> loops_;
     CostScope* costs_ = nullptr; ///< null: statements that another profile lacks, which cost nothing

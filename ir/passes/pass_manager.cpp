@@ -16,6 +16,10 @@ Findings prefixed(Findings findings, std::string_view pass) {
     return findings;
 }
 
+/// Instructions of a routine from which on it is verified before the passes and after the last one only: each time costs as much
+/// as a pass.
+constexpr size_t kHuge = 60'000;
+
 /// False for an unknown name.
 bool runPass(std::string_view name, const Module& module, Routine& routine, const PassOptions& options) {
     if (name == "simplify-cfg")
@@ -39,6 +43,7 @@ Findings runPasses(Module& module, uint32_t index, const PassOptions& options,
     if (auto findings = verifyRoutine(module, index); !findings.empty()) return prefixed(findings, "input");
     for (const std::string_view name : names) {
         if (!runPass(name, module, routine, options)) return {"there is no pass '" + std::string(name) + "'"};
+        if (routine.insts.size() >= kHuge && &name != &names.back()) continue;
         if (auto findings = verifyRoutine(module, index); !findings.empty()) return prefixed(findings, name);
     }
     return {};

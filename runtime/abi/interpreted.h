@@ -85,19 +85,19 @@ enum class WordOp : uint8_t {
     Statement,   ///< number; count = StatementMark. Of the instructions that follow
     Check,       ///< a, error number
     CheckFinite, ///< a, error number
-    Call,        ///< pointer of an InterpretedCall, d (kNoSlot: none), `count` slots of arguments; type = result
-    CallNative,  ///< the same
-    Charge,      ///< cost
-    ChargeMore,  ///< cost, slot with more
+    Call, ///< pointer of an InterpretedCall, d (kNoSlot: none), `count` slots of arguments; type = result
+    CallNative, ///< the same
+    Charge,     ///< cost
+    ChargeMore, ///< cost, slot with more
     Safepoint,
     SafepointMore,
-    Step,           ///< number of the statement
-    ForgetRetries,  ///< a statement begins that RETRY has not brought here
+    Step,          ///< number of the statement
+    ForgetRetries, ///< a statement begins that RETRY has not brought here
     // ends of blocks
-    Jump,     ///< place
-    Branch,   ///< a, place, otherwise
-    Choose,   ///< a, otherwise, number of cases, then value and place of each, in ascending order
-    Return,   ///<
+    Jump,        ///< place
+    Branch,      ///< a, place, otherwise
+    Choose,      ///< a, otherwise, number of cases, then value and place of each, in ascending order
+    Return,      ///<
     ReturnValue, ///< a
     ReturnUndo,  ///< the end of an undo handler
     Raise,       ///< a
@@ -108,7 +108,7 @@ enum class WordOp : uint8_t {
     Unreachable
 };
 
-/// What the Statement word says of errors in it.
+/// How the Statement word describes its errors.
 enum StatementMark : uint8_t { kMarkHandled = 1, kMarkInUndo = 2, kMarkStarts = 4 };
 
 /// First word of an instruction.
@@ -147,6 +147,6 @@ using InterpretedCall = Status (*)(TaskCore* task, Frame* frame, const void* arg
 extern "C" {
 /// Executes a routine. `memory`: its slots (the parameters are in the first ones), then locals; `result` receives a result
 /// of any type, or null. `frame` has its caller and routine.
-rt::Status rt_interpret(rt::TaskCore* task, rt::SteppingFrame* frame, const rt::InterpretedCode* code, void* memory,
-                        void* result);
+rt::Status rt_interpret(rt::TaskCore* task, rt::SteppingFrame* frame, const rt::InterpretedCode* code,
+                        void* memory, void* result);
 }

@@ -18,10 +18,6 @@ bool isZero(const motion::Vec3& v) {
     return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-double largest(const motion::Vec3& v) {
-    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
 template <class Figures> double largestOf(const Figures& figures) {
     double most = 0;
     for (const double figure : figures)
@@ -30,8 +26,9 @@ template <class Figures> double largestOf(const Figures& figures) {
 }
 
 bool isSame(const JogOrder& a, const JogOrder& b) {
-    return a.joints == b.joints && a.external == b.external && a.line == b.line && a.turn == b.turn && a.frame == b.frame &&
-           a.increment == b.increment && sameTool(a.frames, b.frames) && sameFrames(a.frames, b.frames);
+    return a.joints == b.joints && a.external == b.external && a.line == b.line && a.turn == b.turn &&
+           a.frame == b.frame && a.increment == b.increment && sameTool(a.frames, b.frames) &&
+           sameFrames(a.frames, b.frames);
 }
 
 } // namespace
@@ -56,15 +53,16 @@ Jogging::~Jogging() {
 }
 
 std::string Jogging::order(const JogOrder& order) {
+    const auto isShare = [](double value) { return std::fabs(value) <= 1; };
+    const bool inRange = std::all_of(order.joints.begin(), order.joints.end(), isShare) &&
+                         std::all_of(order.external.begin(), order.external.end(), isShare) &&
+                         isShare(order.line.x) && isShare(order.line.y) && isShare(order.line.z) &&
+                         isShare(order.turn.x) && isShare(order.turn.y) && isShare(order.turn.z);
+    if (!inRange) return "speeds of jogging are shares from -1 to 1"; // NaN is refused as well
     if (!order.moves()) {
         stop();
         return {};
     }
-    const auto isShare = [](double value) { return std::fabs(value) <= 1; };
-    const bool inRange = std::all_of(order.joints.begin(), order.joints.end(), isShare) &&
-                         std::all_of(order.external.begin(), order.external.end(), isShare) && isShare(largest(order.line)) &&
-                         isShare(largest(order.turn));
-    if (!inRange) return "speeds of jogging are shares from -1 to 1";
     if (order.isLinear() && (largestOf(order.joints) > 0 || largestOf(order.external) > 0))
         return "the TCP and single axes do not move together";
     if (order.increment && !(*order.increment > 0 && *order.increment <= 10'000))
@@ -138,7 +136,8 @@ void Jogging::step() {
     const double before = share_;
     share_ += std::clamp(wanted - share_, -kRamp * kSeconds, kRamp * kSeconds);
     double way = share_ * kSeconds;
-    const bool isLast = way >= remaining_ || (order_.increment && wanted < kRamp * kSeconds && before > 0 && remaining_ < kSeconds);
+    const bool isLast = way >= remaining_ || (order_.increment && wanted < kRamp * kSeconds && before > 0 &&
+                                              remaining_ < kSeconds);
     if (isLast) way = remaining_;
     const bool isAtRest = share_ <= 0 || isLast;
     if (way > 0 && std::isfinite(way)) {
@@ -148,7 +147,8 @@ void Jogging::step() {
         for (std::size_t i = 0; i < speed.robax.size(); ++i)
             speed.robax[i] = (next->robax[i] - now_.robax[i]) / kSeconds;
         for (std::size_t i = 0; i < speed.extax.size(); ++i)
-            if (motion::isConnected(speed.extax[i])) speed.extax[i] = (next->extax[i] - now_.extax[i]) / kSeconds;
+            if (motion::isConnected(speed.extax[i]))
+                speed.extax[i] = (next->extax[i] - now_.extax[i]) / kSeconds;
         now_ = *next;
         remaining_ -= way;
         if (!motion_.system().leadTo(now_, speed, kPeriod + kPeriod / 2)) return finish();
@@ -181,7 +181,7 @@ double Jogging::speedOfExternal(std::size_t i) const {
     return motion_.system().externalAxes()[i].maxSpeed * JogSpeeds::kJointShare;
 }
 
-/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP is no faster than it may be.
+/// The speed with which all axes of an increment move their amounts, deg/s or mm/s; the TCP keeps its limit.
 double Jogging::commonSpeed() const {
     const motion::JointTarget here = motion_.system().currentJoints();
     motion::JointTarget there = here;
@@ -213,7 +213,8 @@ std::optional<motion::JointTarget> Jogging::afterAxes(double seconds) {
     for (std::size_t i = 0; i < there.robax.size(); ++i) // no faster than the TCP may be
         there.robax[i] = now_.robax[i] + (there.robax[i] - now_.robax[i]) * most / way;
     for (std::size_t i = 0; i < there.extax.size(); ++i)
-        if (motion::isConnected(there.extax[i])) there.extax[i] = now_.extax[i] + (there.extax[i] - now_.extax[i]) * most / way;
+        if (motion::isConnected(there.extax[i]))
+            there.extax[i] = now_.extax[i] + (there.extax[i] - now_.extax[i]) * most / way;
     return there;
 }
 
@@ -239,7 +240,8 @@ std::optional<motion::JointTarget> Jogging::afterLine(double seconds) {
         tcp.rot = normalized(robot::fromAxisAngle(axis, size * JogSpeeds::kTurn * seconds) * tcp.rot);
     }
     motion::JointTarget there = now_;
-    if (system.kinematics().inverseContinue(inverse(base) * tcp * inverse(tool), now_.robax, there.robax)) return there;
+    if (system.kinematics().inverseContinue(inverse(base) * tcp * inverse(tool), now_.robax, there.robax))
+        return there;
     limit_ = "the position is out of reach";
     return std::nullopt;
 }
@@ -270,7 +272,8 @@ bool Jogging::isWithin(const motion::JointTarget& joints) {
         // near a singularity the wrist would have to be faster than it can
         const double most = motion_.model().maxSpeed[i] * std::max(kSeconds, share_ * kRampTime);
         if (std::fabs(joints.robax[i] - now_.robax[i]) <= most) continue;
-        limit_ = fmt::format("axis {} would be too fast: the arm is near a singularity", kinematics.axisNumber(i));
+        limit_ =
+            fmt::format("axis {} would be too fast: the arm is near a singularity", kinematics.axisNumber(i));
         return false;
     }
     return true;

@@ -18,9 +18,9 @@ enum class JogFrame : uint8_t { World, Base, Tool, WorkObject };
 /// A movement by hand. Figures are shares of the speed of jogging, -1 to 1; signs give directions. Joints and the TCP do not move
 /// together.
 struct JogOrder {
-    std::array<double, robot::kMostJoints> joints{};     ///< by axis of the arm
+    std::array<double, robot::kMostJoints> joints{};       ///< by axis of the arm
     std::array<double, motion::kExternalCount> external{}; ///< by external axis
-    motion::Vec3 line, turn;                             ///< of the TCP, along and about the axes of `frame`
+    motion::Vec3 line, turn; ///< of the TCP, along and about the axes of `frame`
     JogFrame frame = JogFrame::World;
     motion::FrameSetup frames; ///< tool and work object
     /// How far a share of 1 moves: mm of TCP, degrees of turning, degrees or mm of an axis. None: until stop(), or for `holdTime`
@@ -34,8 +34,8 @@ struct JogOrder {
 
 /// Speeds of jogging at a share of 1.
 struct JogSpeeds {
-    static constexpr double kLine = 250;      ///< mm/s of the TCP, also while axes are jogged
-    static constexpr double kTurn = 40;       ///< deg/s
+    static constexpr double kLine = 250;       ///< mm/s of the TCP, also while axes are jogged
+    static constexpr double kTurn = 40;        ///< deg/s
     static constexpr double kJointShare = 0.2; ///< of the highest speed of an axis,
     static constexpr double kMostJoint = 30;   ///< and deg/s
 };
@@ -61,7 +61,7 @@ class Jogging {
     void finish();
     void step();
     double speedWanted(double dt) const;
-    /// Where the arm is after `seconds` of jogging at a share of 1. None: nowhere; `limit_` says why.
+    /// The place of the arm after `seconds` of jogging at a share of 1. None: nowhere; `limit_` says why.
     std::optional<motion::JointTarget> after(double seconds);
     std::optional<motion::JointTarget> afterAxes(double seconds);
     std::optional<motion::JointTarget> afterLine(double seconds);

@@ -29,7 +29,7 @@ void addModule(Controller& controller, const ProgramDesc& unit, LoadedModule mod
 void removeModule(Controller& controller, int32_t task, const std::string& module);
 /// All those of a unit.
 bool connectUnit(Controller& controller, const ProgramDesc& unit);
-/// Compiles a module and brings it into memory. Where it is refused (any verdict but Made), nothing has changed.
+/// Compiles a module and brings it into memory. When it is refused (any verdict but Made), nothing has changed.
 LoadResult linkUnit(Controller& controller, ModuleLoader& loader, const LoadRequest& request, bool dynamic,
                     int64_t fileTime);
 /// The values of the persistents of a unit, as bytes.

@@ -82,7 +82,7 @@ void SystemOutputs::listen() {
     controller_.log().addListener([this](const Event& event) { note(event); });
 }
 
-/// What has happened and is seen nowhere afterwards.
+/// Keeps what no state shows afterwards.
 void SystemOutputs::note(const Event& event) {
     if (event.number == static_cast<int>(EventId::ProgramPointerReset)) pointerMoved_ = true;
     if (event.number == static_cast<int>(EventId::Collision) && event.arguments.size() > 1)

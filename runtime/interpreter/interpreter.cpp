@@ -13,9 +13,9 @@ using namespace words;
 class Activation {
   public:
     Activation(TaskCore* task, SteppingFrame* frame, const InterpretedCode& code, void* memory, void* result)
-        : task_(task), frame_(frame), caller_(frame->caller), code_(code), memory_(static_cast<char*>(memory)),
-          slots_(static_cast<Slot*>(memory)), arguments_(reinterpret_cast<Slot*>(memory_ + code.arguments)),
-          result_(result) {}
+        : task_(task), frame_(frame), caller_(frame->caller), code_(code),
+          memory_(static_cast<char*>(memory)), slots_(static_cast<Slot*>(memory)),
+          arguments_(reinterpret_cast<Slot*>(memory_ + code.arguments)), result_(result) {}
 
     Status run();
 
@@ -199,8 +199,8 @@ class Activation {
         return at + 3;
     }
     template <class Operation> const uint32_t* integers(const uint32_t* at, Operation operation) {
-        slot(at[1]).integer =
-            canonical(typeOf(at[0]), static_cast<uint64_t>(operation(slot(at[2]).integer, slot(at[3]).integer)));
+        slot(at[1]).integer = canonical(
+            typeOf(at[0]), static_cast<uint64_t>(operation(slot(at[2]).integer, slot(at[3]).integer)));
         return at + 4;
     }
     /// Operands without sign.
@@ -239,7 +239,6 @@ class Activation {
     uint8_t marks_ = 0; ///< StatementMark, of the statement that was noted last
 };
 
-
 const uint32_t* Activation::convertAt(const uint32_t* at) {
     using S = Slot;
     using T = WordType;
@@ -259,9 +258,9 @@ const uint32_t* Activation::convertAt(const uint32_t* at) {
     };
     switch (opOf(at[0])) {
     case WordOp::ZExt:
-        return convert(at, [&](S a, T from, T to) { return integer(canonical(to, withoutSign(from, a.integer))); });
-    case WordOp::Trunc:
-        return convert(at, [&](S a, T, T to) { return integer(canonical(to, a.bits)); });
+        return convert(
+            at, [&](S a, T from, T to) { return integer(canonical(to, withoutSign(from, a.integer))); });
+    case WordOp::Trunc: return convert(at, [&](S a, T, T to) { return integer(canonical(to, a.bits)); });
     case WordOp::SIntToFloat: // one rounding: not by way of a double
         return convert(at, [&](S a, T, T to) {
             S made = single(0, to);
@@ -351,7 +350,8 @@ Status Activation::run() {
         case WordOp::StackAlloc: {
             const uint64_t bytes = slot(at[2]).bits;
             auto* const top = static_cast<char*>(__builtin_alloca(sizeof(Slot)));
-            const uint64_t room = top > task_->stackLimit ? static_cast<uint64_t>(top - task_->stackLimit) : 0;
+            const uint64_t room =
+                top > task_->stackLimit ? static_cast<uint64_t>(top - task_->stackLimit) : 0;
             if (bytes > room) {
                 at = leaveOrUndo(rt_stackOverflow(task_, frame_));
                 break;
@@ -414,10 +414,13 @@ Status Activation::run() {
         case WordOp::ILt: at = compare(at, [](int64_t a, int64_t b) { return a < b; }); break;
         case WordOp::ILe: at = compare(at, [](int64_t a, int64_t b) { return a <= b; }); break;
         case WordOp::IULt:
-            at = compare(at, [](int64_t a, int64_t b) { return static_cast<uint64_t>(a) < static_cast<uint64_t>(b); });
+            at = compare(
+                at, [](int64_t a, int64_t b) { return static_cast<uint64_t>(a) < static_cast<uint64_t>(b); });
             break;
         case WordOp::IULe:
-            at = compare(at, [](int64_t a, int64_t b) { return static_cast<uint64_t>(a) <= static_cast<uint64_t>(b); });
+            at = compare(at, [](int64_t a, int64_t b) {
+                return static_cast<uint64_t>(a) <= static_cast<uint64_t>(b);
+            });
             break;
         case WordOp::IsFinite:
             slot(at[1]) = truth(std::isfinite(numberIn(typeOf(word), slot(at[2]))));
@@ -457,11 +460,10 @@ Status Activation::run() {
             marks_ = static_cast<uint8_t>(countOf(word));
             at += 2;
             break;
-        case WordOp::Check:
-            at = slot(at[1]).bits != 0 ? at + 3 : raise(static_cast<int32_t>(at[2]));
-            break;
+        case WordOp::Check: at = slot(at[1]).bits != 0 ? at + 3 : raise(static_cast<int32_t>(at[2])); break;
         case WordOp::CheckFinite:
-            at = std::isfinite(numberIn(typeOf(word), slot(at[1]))) ? at + 3 : raise(static_cast<int32_t>(at[2]));
+            at = std::isfinite(numberIn(typeOf(word), slot(at[1]))) ? at + 3
+                                                                    : raise(static_cast<int32_t>(at[2]));
             break;
         case WordOp::Call: at = call(at, false); break;
         case WordOp::CallNative: at = call(at, true); break;
@@ -506,7 +508,7 @@ Status Activation::run() {
 } // namespace
 } // namespace rt
 
-rt::Status rt_interpret(rt::TaskCore* task, rt::SteppingFrame* frame, const rt::InterpretedCode* code, void* memory,
-                        void* result) {
+rt::Status rt_interpret(rt::TaskCore* task, rt::SteppingFrame* frame, const rt::InterpretedCode* code,
+                        void* memory, void* result) {
     return rt::Activation(task, frame, *code, memory, result).run();
 }

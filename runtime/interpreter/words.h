@@ -117,7 +117,8 @@ inline int64_t toUnsigned(double number, WordType type) {
 
 /// IDiv and IRem: dividing by -1 is set apart, since the smallest integer overflows.
 inline int64_t divide(WordType type, int64_t a, int64_t b) {
-    return b == -1 ? canonical(type, 0 - static_cast<uint64_t>(a)) : canonical(type, static_cast<uint64_t>(a / b));
+    return b == -1 ? canonical(type, 0 - static_cast<uint64_t>(a))
+                   : canonical(type, static_cast<uint64_t>(a / b));
 }
 inline int64_t remainder(int64_t a, int64_t b) {
     return b == -1 ? 0 : a % b;

@@ -11,6 +11,16 @@ bool isDeviceType(const std::string& type) {
 bool isNetworkType(const std::string& type) {
     return sameName(type, "EIO_BUS") || upperCase(type).ends_with("_NETWORK");
 }
+/// The network that devices of this type belong to when they do not name one: each fieldbus has a fixed one.
+std::string networkOfType(const std::string& type) {
+    static constexpr std::pair<const char*, const char*> kNetworks[] = {
+        {"DEVICENET", "DeviceNet"}, {"ETHERNETIP", "EtherNetIP"}, {"PROFINET", "PROFINET"},
+        {"PROFIBUS", "PROFIBUS"},   {"CCLINK", "CCLink"},
+    };
+    for (const auto& [prefix, network] : kNetworks)
+        if (upperCase(type).starts_with(prefix)) return network;
+    return {};
+}
 bool isTrustType(const std::string& type) {
     return upperCase(type).find("TRUST") != std::string::npos;
 }
@@ -24,7 +34,7 @@ void IoDevices::configure(const CfgFile& file) {
             if (name.empty()) continue;
             if (isDeviceType(section.type)) {
                 Device& device = deviceFor(name);
-                device.network = instance.text("Network", instance.text("Bus"));
+                device.network = instance.text("Network", instance.text("Bus", networkOfType(section.type)));
                 device.trustLevel = instance.text("TrustLevel", instance.text("UnitTrustLevel"));
             } else if (isNetworkType(section.type)) {
                 networks_.try_emplace(upperCase(name), false);

@@ -69,10 +69,10 @@ class IoDevices {
     void applyStates();
 
     std::function<void(std::string_view, bool)> apply_;
-    std::map<std::string, Device> devices_;        // by name in upper case
-    std::map<std::string, bool> networks_;         // upper case -> in error
+    std::map<std::string, Device> devices_;           // by name in upper case
+    std::map<std::string, bool> networks_;            // upper case -> in error
     std::map<std::string, std::string> networkNames_; // upper case -> as written
-    std::map<std::string, bool> denyDeactivation_; // by trust level in upper case
+    std::map<std::string, bool> denyDeactivation_;    // by trust level in upper case
     WaitQueue changed_;
 };
 

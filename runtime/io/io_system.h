@@ -138,7 +138,7 @@ class IoSystem {
 
     /// A person or client simulates the signal. The value of a simulated input is that of setByClient() alone; what the plant
     /// says meanwhile (stimulus, cross connections) is kept, and is its value when the simulation ends. An output keeps
-    /// following the program: on a controller its device is then not told, and there is none here.
+    /// following the program: on a controller its device does not receive it, and a virtual controller has none.
     void simulate(SignalId id, bool on);
     bool isSimulated(SignalId id) const;
     /// As force(), but a simulated input takes the value, too.

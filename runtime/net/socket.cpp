@@ -32,6 +32,10 @@ void Socket::keepPace() {
     network_.scheduler().holdPace();
 }
 
+void Socket::rest() {
+    if (std::exchange(holdsPace_, false)) network_.scheduler().releasePace();
+}
+
 // ---- Making connections --------------------------------------------------------------------------------------------
 
 /// Opens the socket of the computer, bound as this one is.
@@ -368,8 +372,7 @@ Outcome Socket::receiveFrom(Datagram& datagram) {
 void Socket::close() {
     if (state_ == State::Closed) return;
     state_ = State::Closed;
-    if (holdsPace_) network_.scheduler().releasePace();
-    holdsPace_ = false;
+    rest();
     for (const uint16_t port : {local_.port, hiddenPort_})
         if (port != 0) network_.removeBound(datagrams_, port, *this);
     if (peer_ != nullptr) {

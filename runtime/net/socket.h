@@ -54,6 +54,8 @@ class Socket {
     /// The program has waited for something from outside in vain and may do so again: virtual time keeps step with the wall
     /// until the socket is closed, also between the attempts.
     void expectOutside();
+    /// Nothing is expected from outside until something is sent or comes again: virtual time need not keep step with the wall.
+    void rest();
 
     // ---- Operations ---------------------------------------------------------------------------------------
     Outcome bind(const Address& address);
@@ -75,7 +77,7 @@ class Socket {
     Outcome sendTo(std::string_view bytes, const Address& to);
     /// Again: none has come. Connected sockets take those of the other side only.
     Outcome receiveFrom(Datagram& datagram);
-    /// Who sent a datagram that a connected socket did not take, since the last call.
+    /// The sender of a datagram that a connected socket did not take, since the last call.
     std::optional<Address> takeForeign() { return std::exchange(foreign_, std::nullopt); }
     /// Bytes that were sent still come to the other side. Tasks that wait for this socket are notified.
     void close();

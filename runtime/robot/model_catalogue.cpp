@@ -251,8 +251,13 @@ Expected<RobotModel, ModelError> loadRobotModel(std::string_view nameOrPath,
 
 namespace {
 
-/// The figures of a name (payload, reach), the smallest first.
-std::vector<double> figuresOf(const NameParts& parts) {
+/// The first two figures of a name: "IRB 1200-5/0.9" has the payload (kg) first, "ROB1_1200_0.9_5" the reach (m).
+struct Figures {
+    double payload = 0, reach = 0; ///< 0: not given
+};
+
+Figures figuresOf(std::string_view name, const NameParts& parts) {
+    constexpr double kMillimetres = 1000; // a reach from here on is in mm
     std::vector<double> figures;
     for (const std::string& detail : parts.details) {
         double figure = 0;
@@ -260,17 +265,17 @@ std::vector<double> figuresOf(const NameParts& parts) {
         if (read.ec == std::errc{} && read.ptr == detail.data() + detail.size() && figure > 0)
             figures.push_back(figure);
     }
-    std::sort(figures.begin(), figures.end());
-    return figures;
+    figures.resize(2);
+    if (name.starts_with("ROB")) std::swap(figures[0], figures[1]);
+    return {figures[0], figures[1] >= kMillimetres ? figures[1] / 1000 : figures[1]};
 }
 
-/// How different two robots are: a step of the family counts as twice the payload or the reach.
-double difference(const NameParts& wanted, const NameParts& model) {
-    const std::vector<double> a = figuresOf(wanted), b = figuresOf(model);
-    double sum = std::numbers::ln2 * static_cast<double>(editDistance(wanted.family, model.family));
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        sum += std::fabs(std::log(a[i] / b[i]));
-    return sum;
+/// How different two robots are. The reach decides more than the payload: targets have to be reached.
+double difference(const NameParts& family, const NameParts& model, const Figures& wanted, const Figures& is) {
+    constexpr double kOfReach = 6;
+    const auto ratio = [](double a, double b) { return a > 0 && b > 0 ? std::fabs(std::log(a / b)) : 0; };
+    return std::numbers::ln2 * static_cast<double>(editDistance(family.family, model.family)) +
+           kOfReach * ratio(wanted.reach, is.reach) + ratio(wanted.payload, is.payload);
 }
 
 } // namespace
@@ -279,13 +284,14 @@ std::string similarRobotModel(std::string_view name) {
     constexpr std::size_t kMostChanges = 2, kLongest = 100; // of the family; characters
     const NameParts wanted = takeApart(name.substr(0, kLongest));
     std::string best;
+    if (wanted.family.empty()) return best;
     double least = std::numeric_limits<double>::infinity();
     for (const std::string& candidate : robotModelNames()) {
         const NameParts model = takeApart(candidate);
         if (model.family.size() != wanted.family.size() || model.family.front() != wanted.family.front() ||
             editDistance(wanted.family, model.family) > kMostChanges)
             continue;
-        const double now = difference(wanted, model);
+        const double now = difference(wanted, model, figuresOf(name, wanted), figuresOf(candidate, model));
         if (now >= least) continue;
         least = now;
         best = candidate;

@@ -339,7 +339,7 @@ class Task : public TaskCore {
     bool canResume() const;
     /// Stopped with the program pointer at main: the next start is one from the beginning.
     bool startsAtMain() const { return stopCause_ == StopCause::AtMain && entryOverride_ == nullptr; }
-    /// What is executed when the task begins anew: main, or the procedure that the program pointer was moved to.
+    /// The procedure that the task executes when it begins anew: main, or the procedure that the program pointer was moved to.
     EntryFunction nextEntry() const { return entryOverride_ != nullptr ? entryOverride_ : desc_.entry; }
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();

@@ -1,4 +1,4 @@
-// libFuzzer target: any bytes as a datagram of EGM. What is taken over is finite, bounded and of the mode.
+// libFuzzer target: any bytes as a datagram of EGM. Data that are taken over are finite, bounded and of the mode.
 
 #include "fuzz_support.h"
 #include "stdlib/impl/guided_motion/egm_messages.h"

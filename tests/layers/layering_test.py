@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import check_layering  # noqa: E402
 
 # From the bottom up. An include of a folder further down this list is wrong in each of them.
-RUNTIME = ["abi", "robot", "motion", "base", "value", "program", "log", "sched", "net", "io", "sim", "report", "debug", "host"]
+RUNTIME = ["abi", "interpreter", "robot", "motion", "base", "value", "program", "log", "sched", "net", "io", "sim", "report", "debug", "host"]
 
 
 def check(files):

@@ -124,10 +124,8 @@ class ServeCase(unittest.TestCase):
         return client
 
     def both(self, **options):
-        """A client of each dialect, for what both have in common. Each has a subtest of its own."""
-        for dialect in (1, 2):
-            with self.subTest(dialect=dialect):
-                yield self.client(dialect, **options)
+        """A client of each dialect, for what both have in common."""
+        return [self.client(dialect, **options) for dialect in (1, 2)]
 
     def socket(self, client, response, **options):
         """The event socket of a subscription."""

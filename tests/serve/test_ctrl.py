@@ -188,6 +188,21 @@ class Backup(ServeCase):
             other.close()
         finally:
             server.stop()
+            server.errors.close()
+
+    def test_restore(self):
+        """Issue 20 section 2: backup and restore. The program, the configuration and the files of HOME are those of the backup."""
+        client = self.client(2)
+        self.make(client, "back")
+        self.eventually(lambda: self.state(client) == "Backup Ready", 20)
+        self.assertEqual(client.post("/ctrl/backup/check-restore", {"backup": "/fileservice/$BACKUP/back"}).status, 200)
+        self.assertEqual(client.post("/ctrl/backup/check-restore", {"backup": "/fileservice/$HOME/none"}).status, 404)
+        self.assertEqual(client.put("/fileservice/HOME/note.txt", "other", headers={"Content-Type": "text/plain;v=2.0"}).status, 200)
+        self.assertEqual(client.post("/ctrl/backup/restore", {"backup": "/fileservice/$BACKUP/back"}).status, 204)
+        self.eventually(lambda: client.get("/fileservice/HOME/note.txt").body == b"in HOME", 10)
+        self.eventually(lambda: client.get("/rw/iosystem/signals/doKept").status == 200, 10)
+        value = lambda: self.client(1).get("/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/label").values()["value"]  # noqa: E731
+        self.eventually(lambda: value() == '"new"', 10)
 
     def fetch(self, client, path, folder):
         os.makedirs(folder)

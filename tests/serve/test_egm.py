@@ -119,7 +119,7 @@ class Egm(unittest.TestCase):
         count = 0
         while time.monotonic() < end and self.server.peer.receive() is not None:
             count += 1
-        self.assertLess(count, 100, "messages go on after the program was reset")
+        self.assertLess(count, 100, "messages continue after the program was reset")
 
 
 if __name__ == "__main__":

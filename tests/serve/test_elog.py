@@ -58,7 +58,8 @@ class EventLog(ServeCase):
             domains = {entry.title.rsplit("/", 1)[-1]: entry.values for entry in client.get("/rw/elog").entries("elog-domain-li")}
             self.assertLessEqual({"0", "1", "2", "3", "4", "5", "7", "8", "9", "11", "12"}, set(domains))
             self.assertEqual(domains["0"]["buffsize"], "1000")
-            self.assertGreater(int(domains["0"]["numevts"]), 0)
+            count = sum(len(client.get(f"/rw/elog/{domain}").entries()) for domain in (4, 9))
+            self.assertEqual(count, int(domains["4"]["numevts"]) + int(domains["9"]["numevts"]))
 
     def test_a_message(self):
         """Facts 7: the values of a message; line 30: its title ends in its number."""
@@ -96,10 +97,14 @@ class EventLog(ServeCase):
         self.assertEqual(len(two.get("/rw/elog/8").json()["_embedded"]["resources"]), 50)
 
     def test_arguments(self):
-        """Facts 7: argc and argv, typed. The program was started: 10150 names its task."""
+        """Line 33: 10125 has arguments; facts 7: argc and argv, typed. The task is among them."""
         client = self.client(1, form="json")
-        states = client.get("/rw/elog/1?lang=en&order=fifo").json()["_embedded"]["_state"]
-        message = next(state for state in states if state["code"] in ("10150", "10151"))
+        self.assertEqual(client.post("/rw/rapid/execution?action=stop", {"stopmode": "stop"}).status, 204)
+        self.addCleanup(client.post, "/rw/rapid/execution?action=start",
+                        {"regain": "continue", "execmode": "continue", "cycle": "forever", "condition": "none", "stopatbp": "disabled"})
+        found = lambda: [state for state in client.get("/rw/elog/1?lang=en").json()["_embedded"]["_state"]  # noqa: E731
+                         if state["code"] == "10125"]
+        message = self.eventually(found)[0]
         self.assertEqual(int(message["argc"]), len(message["argv"]))
         self.assertIn({"type": "string", "value": "T_ROB1"},
                       [{"type": each["type"], "value": each["value"]} for each in message["argv"]])

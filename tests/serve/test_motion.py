@@ -328,7 +328,7 @@ class Motion(ServeCase):
 
 class SevenAxes(ServeCase):
     MODULE = "MODULE m\n PROC main()\n  WaitTime 1;\n ENDPROC\nENDMODULE\n"
-    OPTIONS = ("--no-program-start", "--robot=IRB 14050-0.5/0.5")
+    OPTIONS = ("--no-program-start", "--robot=IRB 14050-0.5/0.559")
 
     def test_kinematics(self):
         """Line 32 for an arm of seven axes: axis 7 is the first external one."""

@@ -66,7 +66,7 @@ class Digest(ServeCase):
     def test_wrong_answers(self):
         client = self.client(password="wrong")
         self.assertEqual(client.get(PATH).status, 401)
-        client = self.client(user="Nobody")
+        client = self.client(user="Stranger")
         self.assertEqual(client.get(PATH).status, 401)
         client = self.client()
         for text in ("Digest", "Digest ", "Digest username", 'Digest username="Default User', "Digest a=b,,", "Bearer x",
@@ -90,7 +90,7 @@ class Basic(ServeCase):
         self.assertEqual(response.status, 401)
         self.assertTrue(response.header("www-authenticate").startswith("Basic "))
         for user, password, status in (("Admin", "robotics", 200), ("Default User", "robotics", 200), ("Admin", "wrong", 401),
-                                       ("Nobody", "robotics", 401), ("Admin", "", 401), ("", "", 401)):
+                                       ("Stranger", "robotics", 401), ("Admin", "", 401), ("", "", 401)):
             with self.subTest(user=user, password=password):
                 self.assertEqual(self.client(2, user=user, password=password).get(PATH).status, status)
 

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 class Channel;
 
-/// What all connections share. They keep it alive, because a response may come after the end of the server.
+/// The common state of all connections. They keep it alive, because a response may come after the end of the server.
 struct Hub {
     explicit Hub(Limits given) : limits(given) {}
     const Limits limits;
@@ -26,7 +26,7 @@ struct Hub {
     bool isStopping = false;
 };
 
-/// What lives on a TCP connection: HTTP, later perhaps a WebSocket.
+/// The protocol of a TCP connection: HTTP, later perhaps a WebSocket.
 class Channel {
   public:
     virtual ~Channel() = default;

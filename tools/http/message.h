@@ -11,7 +11,7 @@
 
 namespace rapidc::http {
 
-/// What is known of a request before its body has been read.
+/// A request before its body has been read.
 struct Head {
     std::string method;   ///< as the client wrote it: "GET"
     std::string target;   ///< as the client wrote it

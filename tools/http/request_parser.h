@@ -1,6 +1,6 @@
 #pragma once
-// RequestParser: bytes -> requests, by the parser of Boost.Beast, with the limits and the strictness that a server needs which may
-// stand behind others: what could be read in two ways is refused.
+// RequestParser: bytes -> requests, by the parser of Boost.Beast, with the limits and the strictness of a server that a proxy
+// may feed: a request that could be read in two ways is refused.
 
 #include "tools/http/message.h"
 

@@ -26,7 +26,7 @@ namespace rapidc::http {
 
 class TlsIdentity;
 
-/// What a service decides when it has seen a header.
+/// The decision of a service when it has seen a header.
 struct Decision {
     /// Answers now; the body is read and dropped, so that clients which send first and read then get the answer.
     std::optional<Response> answer = {};

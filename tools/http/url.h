@@ -1,5 +1,5 @@
 #pragma once
-// Targets of requests, queries and forms: text that comes from outside. What is not well formed is refused, never guessed.
+// Targets of requests, queries and forms: text that comes from outside. Text that is not well formed is refused, never guessed.
 
 #include <optional>
 #include <string>

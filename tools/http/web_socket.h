@@ -25,13 +25,13 @@ class WebSocket {
     /// Sends one text message; the bytes are shared, not copied. A client that reads too slowly is cut off.
     virtual void send(std::shared_ptr<const std::string> text) = 0;
     virtual void close(CloseCode code, std::string reason) = 0;
-    /// What was sent and has not left yet: a service may leave out what the client does not need for certain.
+    /// The bytes that were sent and have not left yet: a service may leave out what the client does not need for certain.
     virtual std::size_t waitingBytes() const { return 0; }
 
     void send(std::string text) { send(std::make_shared<const std::string>(std::move(text))); }
 };
 
-/// What a service hears of a socket. All calls come on the network thread.
+/// The events of a socket for its service. All calls come on the network thread.
 class SocketListener {
   public:
     virtual ~SocketListener() = default;

@@ -7,8 +7,8 @@
 
 namespace rapidc::pendant {
 
-std::unique_ptr<Area> makePanelArea(const Context& context);      ///< panel, time, restart
-std::unique_ptr<Area> makeExecutionArea(const Context& context);  ///< run, tasks, pointers
+std::unique_ptr<Area> makePanelArea(const Context& context);     ///< panel, time, restart
+std::unique_ptr<Area> makeExecutionArea(const Context& context); ///< run, tasks, pointers
 std::unique_ptr<Area> makeBreakpointArea(const Context& context);
 std::unique_ptr<Area> makeModuleArea(const Context& context);
 std::unique_ptr<Area> makeFileArea(const Context& context); ///< files, programs, backups

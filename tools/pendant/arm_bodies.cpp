@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace rapidc::pendant {
 
@@ -110,7 +110,8 @@ class SerialChain {
         }
         const Vec3 last = axes_.empty() ? Vec3{} : axes_.back().point;
         const Pose origin{flange_.pos - last, flange_.rot};
-        addFlange(bodies, static_cast<int>(bodies.size()) - 1, origin, radiusAt(model_, count - 1, count) * 1.1);
+        addFlange(bodies, static_cast<int>(bodies.size()) - 1, origin,
+                  radiusAt(model_, count - 1, count) * 1.1);
         return bodies;
     }
 
@@ -147,8 +148,8 @@ class SerialChain {
 };
 
 /// A body that turns by sign * joint + shift, as the mechanism counts it.
-Body turning(const robot::RobotModel& model, const char* name, int parent, const Pose& origin, const Vec3& axis,
-             std::initializer_list<std::pair<int, double>> models) {
+Body turning(const robot::RobotModel& model, const char* name, int parent, const Pose& origin,
+             const Vec3& axis, std::initializer_list<std::pair<int, double>> models) {
     Body body;
     body.name = name;
     body.parent = parent;
@@ -198,16 +199,16 @@ std::vector<Body> delta(const robot::RobotModel& model) {
     base.solids.push_back(
         solid(Solid::Kind::Cylinder, Solid::Role::Arm, {0, 0, -r}, {0, 0, r * 3}, g.baseRadius + r));
     std::vector<Body> bodies{base};
-    Body flange;
-    flange.name = "flange";
-    flange.motion = Body::Motion::Flange;
-    flange.solids.push_back(solid(Solid::Kind::Cylinder, Solid::Role::Flange, {0, 0, -r}, {}, r * 1.5));
-    bodies.push_back(flange);
+    Body carried; // what the motion gives; the flange itself comes last
+    carried.name = "carried";
+    carried.motion = Body::Motion::Flange;
+    bodies.push_back(carried);
     // The platform stays level and does not turn with axis 4.
-    Body platform = turning(model, "platform", 1, {{}, robot::conjugate(model.flangeRot)}, {0, 0, 1}, {{3, -1.0}});
+    Body platform =
+        turning(model, "platform", 1, {{}, robot::conjugate(model.flangeRot)}, {0, 0, 1}, {{3, -1.0}});
     const Vec3 centre{0, 0, g.flangeDown};
-    platform.solids.push_back(
-        solid(Solid::Kind::Cylinder, Solid::Role::Arm, {0, 0, g.flangeDown - r}, centre, g.platformRadius + r));
+    platform.solids.push_back(solid(Solid::Kind::Cylinder, Solid::Role::Arm, {0, 0, g.flangeDown - r}, centre,
+                                    g.platformRadius + r));
     bodies.push_back(platform);
     for (int k = 0; k < 3; ++k) {
         const Quat direction = turnAbout({0, 0, 1}, 120.0 * k);
@@ -225,6 +226,7 @@ std::vector<Body> delta(const robot::RobotModel& model) {
         }
         bodies.push_back(std::move(arm));
     }
+    addFlange(bodies, 1, {}, r * 1.5);
     return bodies;
 }
 

@@ -42,10 +42,11 @@ struct Body {
     std::vector<Solid> solids;
 };
 
-/// The body named "flange" is the flange frame. Empty for a model without an arm.
+/// The last body, "flange", is the flange frame. Empty for a model without an arm.
 std::vector<Body> bodiesOf(const robot::RobotModel& model);
 
 /// Poses of the bodies in the base frame at these joints.
-std::vector<robot::Pose> posesOf(const std::vector<Body>& bodies, const robot::Joints& joints, const robot::Pose& flange);
+std::vector<robot::Pose> posesOf(const std::vector<Body>& bodies, const robot::Joints& joints,
+                                 const robot::Pose& flange);
 
 } // namespace rapidc::pendant

@@ -37,7 +37,8 @@ class BreakpointArea final : public Area {
     BreakpointArea& operator=(const BreakpointArea&) = delete;
 
     void addTo(MethodTable& methods) override {
-        methods.add("breakpoints.list", [this](Client&, const Json&) { return Json{{"breakpoints", list()}}; });
+        methods.add("breakpoints.list",
+                    [this](Client&, const Json&) { return Json{{"breakpoints", list()}}; });
         methods.add("breakpoints.set", [this](Client&, const Json& params) { return set(params); });
         methods.add("breakpoints.clear", [this](Client&, const Json& params) {
             clear(params);
@@ -64,7 +65,9 @@ class BreakpointArea final : public Area {
                       .breakpoints()
                       .addLine(
                           mark.module, mark.line,
-                          [module = mark.module](const rt::RoutineDesc& routine) { return rt::isPlace(routine, module); },
+                          [module = mark.module](const rt::RoutineDesc& routine) {
+                              return rt::isPlace(routine, module);
+                          },
                           [task = mark.task](rt::Task& at, rt::Frame*) { return sameName(at.name(), task); })
                       .id;
     }
@@ -73,7 +76,10 @@ class BreakpointArea final : public Area {
         uint32_t line = 0;
         for (const rt::Breakpoint& each : debugger().breakpoints().all())
             if (each.id == mark.id) line = each.actualLine;
-        return {{"task", mark.task}, {"module", mark.module}, {"line", line != 0 ? line : mark.line}, {"verified", line != 0}};
+        return {{"task", mark.task},
+                {"module", mark.module},
+                {"line", line != 0 ? line : mark.line},
+                {"verified", line != 0}};
     }
 
     Json list() const {
@@ -87,12 +93,16 @@ class BreakpointArea final : public Area {
 
     Json set(const Json& params) {
         const NamedModule named = moduleOf(controller_, params);
-        Mark mark{named.task.name(), named.module.name, static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine)), 0};
-        if (marks_.size() >= kMost) throw RequestError{code::kTooLarge, "There are too many breakpoints", "Remove some of them"};
+        Mark mark{named.task.name(), named.module.name,
+                  static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine)), 0};
+        if (marks_.size() >= kMost)
+            throw RequestError{code::kTooLarge, "There are too many breakpoints", "Remove some of them"};
         setInDebugger(mark);
         const uint32_t line = lineOf(mark);
         for (const Mark& other : marks_) {
-            if (!sameName(other.task, mark.task) || !sameName(other.module, mark.module) || lineOf(other) != line) continue;
+            if (!sameName(other.task, mark.task) || !sameName(other.module, mark.module) ||
+                lineOf(other) != line)
+                continue;
             debugger().breakpoints().remove(mark.id); // it is there already
             return describe(other);
         }
@@ -108,7 +118,8 @@ class BreakpointArea final : public Area {
 
     void clear(const Json& params) {
         const bool all = !has(params, "task") && !has(params, "module") && !has(params, "line");
-        const std::string task = all ? "" : textOf(params, "task"), module = all ? "" : textOf(params, "module");
+        const std::string task = all ? "" : textOf(params, "task"),
+                          module = all ? "" : textOf(params, "module");
         const auto line = all ? 0 : static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine));
         const auto matches = [&](const Mark& mark) {
             return all || (sameName(mark.task, task) && sameName(mark.module, module) &&

@@ -7,9 +7,11 @@
 namespace rapidc::pendant {
 
 void Client::answer(const Json& id, const Json& result) {
-    auto text = std::make_shared<const std::string>(rapid::config::textOf(Json{{"id", id}, {"result", result}}));
+    auto text =
+        std::make_shared<const std::string>(rapid::config::textOf(Json{{"id", id}, {"result", result}}));
     if (text->size() > kLargestAnswer)
-        return refuse(id, {code::kTooLarge, fmt::format("The answer has {} bytes", text->size()), "Ask for less"});
+        return refuse(
+            id, {code::kTooLarge, fmt::format("The answer has {} bytes", text->size()), "Ask for less"});
     send(std::move(text));
 }
 

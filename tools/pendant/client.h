@@ -12,7 +12,7 @@ namespace rapidc::pendant {
 
 class Client {
   public:
-    static constexpr int kMostWaiting = 64;                          ///< requests
+    static constexpr int kMostWaiting = 64;                             ///< requests
     static constexpr std::size_t kLargestAnswer = std::size_t{8} << 20; ///< bytes
 
     Client(std::shared_ptr<http::WebSocket> socket, std::string peer, bool needsLogin)
@@ -40,7 +40,7 @@ class Client {
     bool needsLogin() const { return needsLogin_; }
 
   private:
-    static constexpr std::size_t kCongested = 256 * 1024; ///< bytes
+    static constexpr std::size_t kCongested = std::size_t{256} * 1024; ///< bytes
 
     const std::shared_ptr<http::WebSocket> socket_;
     const std::string peer_;

@@ -23,7 +23,7 @@ using service::DataPath;
 using service::FoundData;
 
 constexpr std::size_t kMostPaths = 500;
-constexpr std::size_t kLongestValue = 256 * 1024; // bytes of a value that is sent or taken
+constexpr std::size_t kLongestValue = std::size_t{256} * 1024; // bytes of a value that is sent or taken
 
 const char* kindOf(service::SymbolType type) {
     switch (type) {
@@ -120,11 +120,13 @@ Json DataArea::list(const Json& params) {
     service::SymbolQuery query;
     query.block = "RAPID/" + task.name();
     if (has(params, "module")) query.block += "/" + moduleOf(controller_, params).module.name;
-    query.types = {service::SymbolType::Constant, service::SymbolType::Variable, service::SymbolType::Persistent};
+    query.types = {service::SymbolType::Constant, service::SymbolType::Variable,
+                   service::SymbolType::Persistent};
     query.skipPredefined = true;
     query.dataType = textOr(params, "type", "");
     const std::string filter = textOr(params, "filter", "");
-    if (!filter.empty()) query.matches = [&filter](const std::string& name) { return matchesFilter(name, filter); };
+    if (!filter.empty())
+        query.matches = [&filter](const std::string& name) { return matchesFilter(name, filter); };
     const auto start = static_cast<std::size_t>(wholeOr(params, "start", 0, 0, INT32_MAX));
     const auto count = static_cast<std::size_t>(wholeOr(params, "count", 500, 1, 5000));
     std::vector<service::SymbolInfo> found;
@@ -134,7 +136,8 @@ Json DataArea::list(const Json& params) {
     for (const service::SymbolInfo& each : found) {
         const std::string path = withoutRoot(each.url);
         const std::vector<std::string> names = namesIn(path);
-        if (names.size() != 3 || total++ < start || data.size() >= count) continue; // data of routines are in data.stack
+        if (names.size() != 3 || total++ < start || data.size() >= count)
+            continue; // data of routines are in data.stack
         data.push_back({{"path", path},
                         {"module", names[1]},
                         {"name", each.name},
@@ -156,9 +159,11 @@ Json DataArea::write(const Json& params) {
     const FoundData found = findData(controller_, *names);
     if (found.data == nullptr) notFound(found.problem);
     if (found.isConstant)
-        throw RequestError{code::kRefused, fmt::format("{} is a constant", path), "Change its declaration in the module"};
+        throw RequestError{code::kRefused, fmt::format("{} is a constant", path),
+                           "Change its declaration in the module"};
     if (found.isProtected) throw RequestError{code::kRefused, fmt::format("{} belongs to the system", path)};
-    if (const std::string problem = assign(found, value); !problem.empty()) badRequest(fmt::format("{}: {}", path, problem));
+    if (const std::string problem = assign(found, value); !problem.empty())
+        badRequest(fmt::format("{}: {}", path, problem));
     controller_.core().scheduler().lookAtData(); // watches and interrupts see it now
     return {{"value", valueAt(path)}};
 }
@@ -172,10 +177,11 @@ Json DataArea::watch(const Client& client, const Json& params) {
         Watched& watched = watched_[path];
         watched.clients.insert(&client);
         if (watched.token == 0)
-            watched.token = watches_.add(*names, [this, path](const std::string&) { // perhaps on the fibre of a task
-                changed_.insert(path);
-                hub_.wake();
-            });
+            watched.token =
+                watches_.add(*names, [this, path](const std::string&) { // perhaps on the fibre of a task
+                    changed_.insert(path);
+                    hub_.wake();
+                });
     }
     return readAll(paths);
 }
@@ -218,18 +224,23 @@ Json DataArea::stack(const Json& params) {
     const std::vector<rt::DebugFrame> chain = debugger.frames(task);
     Json frames = Json::array();
     for (const rt::DebugFrame& frame : chain)
-        frames.push_back({{"module", frame.place.module}, {"routine", frame.place.routine}, {"line", frame.place.line}});
+        frames.push_back(
+            {{"module", frame.place.module}, {"routine", frame.place.routine}, {"line", frame.place.line}});
     Json data = Json::array();
     const auto number = static_cast<std::size_t>(wholeOr(params, "frame", 0, 0, 10'000));
     if (number < chain.size())
         for (const rt::DebugVariable& each : debugger.locals(chain[number]))
-            data.push_back({{"name", each.name}, {"type", rt::typeName(each)}, {"value", each.data == nullptr ? Json() : Json(rt::valueText(each))}});
+            data.push_back({{"name", each.name},
+                            {"type", rt::typeName(each)},
+                            {"value", each.data == nullptr ? Json() : Json(rt::valueText(each))}});
     return {{"frames", std::move(frames)}, {"data", std::move(data)}};
 }
 
 void DataArea::addTo(MethodTable& methods) {
     methods.add("data.list", [this](Client&, const Json& params) { return list(params); });
-    methods.add("data.read", [this](Client&, const Json& params) { return readAll(textsOf(params, "paths", kMostPaths)); });
+    methods.add("data.read", [this](Client&, const Json& params) {
+        return readAll(textsOf(params, "paths", kMostPaths));
+    });
     methods.add("data.write", [this](Client&, const Json& params) { return write(params); });
     methods.add("data.watch", [this](Client& client, const Json& params) { return watch(client, params); });
     methods.add("data.stack", [this](Client&, const Json& params) { return stack(params); });

@@ -18,7 +18,7 @@ namespace {
 using service::Change;
 using Open = rt::OperatorPanel::OpenDialog;
 
-constexpr std::size_t kMostLines = 100; // of the display, as the panel keeps
+constexpr std::size_t kMostLines = 100;  // of the display, as the panel keeps
 constexpr std::size_t kLongestText = 80; // of a RAPID string
 
 const char* kindOf(const rt::Dialog& dialog) {
@@ -34,10 +34,10 @@ const char* kindOf(const rt::Dialog& dialog) {
 
 Json describe(const Open& open) {
     const rt::Dialog& dialog = *open.dialog;
-    return {{"id", open.number},         {"task", open.task->name()}, {"instruction", dialog.instruction},
-            {"kind", kindOf(dialog)},    {"header", dialog.header},   {"lines", dialog.lines},
-            {"icon", dialog.icon},       {"image", dialog.image},     {"choices", dialog.choices},
-            {"items", dialog.items},     {"hint", dialog.hint}};
+    return {{"id", open.number},      {"task", open.task->name()}, {"instruction", dialog.instruction},
+            {"kind", kindOf(dialog)}, {"header", dialog.header},   {"lines", dialog.lines},
+            {"icon", dialog.icon},    {"image", dialog.image},     {"choices", dialog.choices},
+            {"items", dialog.items},  {"hint", dialog.hint},       {"initial", ""}};
 }
 
 /// UIMsgWrite: a message that stays while the program continues; its id is 0.
@@ -52,7 +52,8 @@ Json describe(const rt::PanelMessage& message) {
             {"image", message.image},
             {"choices", Json::array()},
             {"items", Json::array()},
-            {"hint", ""}};
+            {"hint", ""},
+            {"initial", ""}};
 }
 
 class DialogArea final : public Area {
@@ -60,8 +61,9 @@ class DialogArea final : public Area {
     explicit DialogArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
         observer.changed = [this](Change change, const rt::Task*) {
-            if (change == Change::Generation) shown_.clear(), isDisplayed_ = false;
-            if (change == Change::Dialog || change == Change::Display || change == Change::Generation) hub_.wake();
+            if (change == Change::Generation) shown_.clear(), lines_.clear(), isDisplayed_ = false;
+            if (change == Change::Dialog || change == Change::Display || change == Change::Generation)
+                hub_.wake();
             isChanged_ = isChanged_ || change == Change::Dialog;
             isDisplayed_ = isDisplayed_ || change == Change::Display;
         };
@@ -76,10 +78,14 @@ class DialogArea final : public Area {
         methods.add("dialogs.answer", [this](Client&, const Json& params) { return answer(params); });
         methods.add("display.read", [this](Client&, const Json&) { return display(); });
     }
-    void describe(Json& state) override { state["dialogs"] = list(), state["display"] = display(); }
+    void describe(Json& state) override {
+        flush(); // what this answer holds is not notified after it
+        state["dialogs"] = list();
+        state["display"] = display();
+    }
     void flush() override {
         if (std::exchange(isChanged_, false)) flushDialogs();
-        if (std::exchange(isDisplayed_, false)) hub_.broadcast("display", display());
+        if (std::exchange(isDisplayed_, false)) flushDisplay();
     }
 
   private:
@@ -94,53 +100,78 @@ class DialogArea final : public Area {
     Json display() const {
         const std::deque<std::string>& lines = panel().display();
         const std::size_t first = lines.size() - std::min(lines.size(), kMostLines);
-        return {{"lines", std::vector<std::string>(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end())}};
+        return {{"lines",
+                 std::vector<std::string>(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end())}};
     }
     void flushDialogs();
+    void flushDisplay();
     Json answer(const Json& params);
 
     service::VirtualController& controller_;
     Hub& hub_;
     service::Observers::Token observer_ = 0;
     std::map<uint64_t, Json> shown_; ///< dialogs that pages know of
+    std::deque<std::string> lines_;  ///< of the display, as pages know them
     bool isChanged_ = false, isDisplayed_ = false;
 };
 
 void DialogArea::flushDialogs() {
     std::map<uint64_t, Json> now;
-    for (Json& each : list())
-        now[each.at("id").get<uint64_t>()] = std::move(each);
+    for (Json& each : list()) {
+        const auto id = each.at("id").get<uint64_t>();
+        now[id] = std::move(each);
+    }
     for (const auto& [id, dialog] : shown_)
         if (!now.contains(id)) hub_.broadcast("dialog", {{"closed", id}});
     for (const auto& [id, dialog] : now) {
         const auto before = shown_.find(id);
-        if (before == shown_.end() || before->second != dialog) hub_.broadcast("dialog", {{"opened", dialog}});
+        if (before == shown_.end() || before->second != dialog)
+            hub_.broadcast("dialog", {{"opened", dialog}});
     }
     shown_ = std::move(now);
+}
+
+/// The new lines, or everything when the display was erased meanwhile.
+void DialogArea::flushDisplay() {
+    const std::deque<std::string>& now = panel().display();
+    std::size_t kept = std::min(lines_.size(), now.size()); // the end of what was is the beginning of what is
+    const auto continues = [&] {
+        return std::equal(lines_.end() - static_cast<std::ptrdiff_t>(kept), lines_.end(), now.begin());
+    };
+    while (kept > 0 && !continues())
+        --kept;
+    if (kept == 0 && !lines_.empty()) hub_.broadcast("display", {{"clear", true}});
+    for (std::size_t i = kept; i < now.size(); ++i)
+        hub_.broadcast("display", {{"line", now[i]}});
+    lines_ = now;
 }
 
 Json DialogArea::answer(const Json& params) {
     const auto id = static_cast<uint64_t>(wholeOf(params, "id", 0, int64_t{1} << 53));
     const std::vector<Open> dialogs = panel().openDialogs();
-    const auto open = std::find_if(dialogs.begin(), dialogs.end(), [&](const Open& each) { return each.number == id; });
+    const auto open =
+        std::find_if(dialogs.begin(), dialogs.end(), [&](const Open& each) { return each.number == id; });
     if (open == dialogs.end()) notFound("This dialog is not open any more");
     const rt::Dialog& dialog = *open->dialog;
     std::string answer;
     switch (dialog.kind) {
     case rt::DialogKind::Choice: {
-        const auto choice = wholeOf(params, "choice", 1, static_cast<int64_t>(std::max<std::size_t>(dialog.choices.size(), 1)));
+        const auto choice = wholeOf(params, "choice", 1,
+                                    static_cast<int64_t>(std::max<std::size_t>(dialog.choices.size(), 1)));
         if (!dialog.choices.empty() && dialog.choices[static_cast<std::size_t>(choice - 1)].empty())
             badRequest("This button is not shown");
         answer = std::to_string(choice);
         break;
     }
     case rt::DialogKind::List:
-        answer = std::to_string(wholeOf(params, "item", 1, static_cast<int64_t>(std::max<std::size_t>(dialog.items.size(), 1))));
+        answer = std::to_string(
+            wholeOf(params, "item", 1, static_cast<int64_t>(std::max<std::size_t>(dialog.items.size(), 1))));
         break;
     case rt::DialogKind::Number: answer = fmt::format("{}", numberOf(params, "number")); break;
     case rt::DialogKind::Text: {
         const std::string text = textOf(params, "text");
-        if (text.size() > kLongestText) badRequest(fmt::format("A text has at most {} characters", kLongestText));
+        if (text.size() > kLongestText)
+            badRequest(fmt::format("A text has at most {} characters", kLongestText));
         if (text.find_first_of("\r\n") != std::string::npos) badRequest("A text has one line");
         answer = "\"" + text + "\""; // as it is, also when it is empty
         break;

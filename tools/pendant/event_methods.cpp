@@ -27,12 +27,9 @@ const char* typeOf(rt::EventType type) {
 }
 
 Json describe(const EventMessage& message) {
-    return {{"number", message.number},
-            {"code", message.code},
-            {"type", typeOf(message.type)},
-            {"time", service::calendarText(message.calendarSeconds)},
-            {"task", message.task},
-            {"title", message.title}};
+    return {{"number", message.number},     {"code", message.code},
+            {"type", typeOf(message.type)}, {"time", service::calendarText(message.calendarSeconds)},
+            {"task", message.task},         {"title", message.title}};
 }
 
 class EventArea final : public Area {
@@ -74,7 +71,8 @@ class EventArea final : public Area {
 
 Json EventArea::list(const Json& params) const {
     const int domain = static_cast<int>(wholeOr(params, "domain", 0, 0, 99));
-    const auto before = static_cast<uint64_t>(wholeOr(params, "before", int64_t{1} << 53, 0, int64_t{1} << 53));
+    const auto before =
+        static_cast<uint64_t>(wholeOr(params, "before", int64_t{1} << 53, 0, int64_t{1} << 53));
     const auto count = static_cast<std::size_t>(wholeOr(params, "count", 50, 1, 1000));
     const service::EventJournal::Messages& messages = journal_.messages(domain);
     Json events = Json::array();

@@ -78,7 +78,7 @@ class ExecutionArea final : public Area {
 void ExecutionArea::note(Change change, const rt::Task* task) {
     switch (change) {
     case Change::Generation:
-        moved_.clear(); // tasks of the controller before
+        moved_.clear();           // tasks of the controller before
         areTasksChanged_ = false; // clients ask for the state
         return;
     case Change::ProgramPointer:
@@ -120,7 +120,8 @@ Json ExecutionArea::describe(const rt::Task& task) {
 }
 
 Json ExecutionArea::start(const Json& params) {
-    const ExecutionMode mode = has(params, "mode") ? wordOf(params, "mode", kStarts) : ExecutionMode::Continue;
+    const ExecutionMode mode =
+        has(params, "mode") ? wordOf(params, "mode", kStarts) : ExecutionMode::Continue;
     rt::Task* task = has(params, "task") ? &taskOf(controller_, params) : nullptr;
     refuseUnless(controller_.start(mode, task));
     return {};
@@ -138,7 +139,8 @@ void ExecutionArea::addTo(MethodTable& methods) {
     });
     methods.add("run.pointerToRoutine", [this](Client&, const Json& params) {
         rt::Task& task = taskOf(controller_, params);
-        refuseUnless(controller_.pointerToRoutine(task, textOr(params, "module", ""), textOf(params, "routine")));
+        refuseUnless(
+            controller_.pointerToRoutine(task, textOr(params, "module", ""), textOf(params, "routine")));
         return Json();
     });
     methods.add("run.pointerToLine", [this](Client&, const Json& params) {

@@ -89,7 +89,10 @@ Json FileArea::list(const std::string& folder) const {
     if (const service::FileResult result = volumes_.list(path, found); !result.isDone()) fail(result);
     for (const service::FileEntry& entry : found) {
         if (entries.size() >= kMostEntries) break;
-        entries.push_back({{"name", entry.name}, {"folder", entry.isFolder}, {"size", entry.size}, {"modified", entry.modified}});
+        entries.push_back({{"name", entry.name},
+                           {"folder", entry.isFolder},
+                           {"size", entry.size},
+                           {"modified", entry.modified}});
     }
     return {{"entries", std::move(entries)}};
 }
@@ -100,15 +103,19 @@ Json FileArea::saveProgram(const Json& params) {
     const HostFile folder = fileOf(controller_, params, "folder");
     std::error_code error;
     fs::create_directories(folder.host, error);
-    if (!fs::is_directory(folder.host, error)) throw RequestError{code::kFailed, fmt::format("{} is not a folder", folder.rapid)};
+    if (!fs::is_directory(folder.host, error))
+        throw RequestError{code::kFailed, fmt::format("{} is not a folder", folder.rapid)};
     std::vector<std::string> files;
     for (const rt::LoadedModule& module : controller_.core().tables().modules()) {
         std::string text;
-        if (module.task != static_cast<int32_t>(task.index()) || !controller_.moduleText(task, module.name, text)) continue;
+        if (module.task != static_cast<int32_t>(task.index()) ||
+            !controller_.moduleText(task, module.name, text))
+            continue;
         if (rws::isSystemModule(text, module.name)) continue;
         files.push_back(module.name + ".modx");
         const std::string file = (fs::path(folder.host) / files.back()).string();
-        if (const std::string problem = rws::saveModule(controller_.core(), task, module, text, file); !problem.empty())
+        if (const std::string problem = rws::saveModule(controller_.core(), task, module, text, file);
+            !problem.empty())
             throw RequestError{code::kFailed, fmt::format("{} cannot be written: {}", files.back(), problem)};
     }
     const std::string name = textOr(params, "name", controller_.core().program().name);
@@ -124,7 +131,8 @@ Json FileArea::loadProgram(const Json& params) {
     const HostFile file = fileOf(controller_, params, "path");
     std::string text;
     std::vector<std::string> names, files;
-    if (!rapid::config::readFile(file.host, text).empty()) notFound(fmt::format("There is no file {}", file.rapid));
+    if (!rapid::config::readFile(file.host, text).empty())
+        notFound(fmt::format("There is no file {}", file.rapid));
     if (!rapid::project::readProgramFile(text, names))
         badRequest(fmt::format("{} is not a program file", file.rapid), "Choose a file that ends in .pgf");
     const std::string folder = fs::path(file.rapid).parent_path().string();
@@ -146,11 +154,14 @@ DiskWork FileArea::backup(const Json& params) {
     const std::string name = textOf(params, "name");
     if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
     std::string host;
-    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone()) fail(found);
+    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone())
+        fail(found);
     std::error_code error;
     if (fs::exists(fs::symlink_status(host, error)))
-        throw RequestError{code::kRefused, fmt::format("BACKUP:/{} exists already", name), "Choose another name"};
-    auto content = std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
+        throw RequestError{code::kRefused, fmt::format("BACKUP:/{} exists already", name),
+                           "Choose another name"};
+    auto content =
+        std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
     return [content, host, name] {
         if (const std::string problem = service::writeBackup(*content, host); !problem.empty())
             throw RequestError{code::kFailed, fmt::format("The backup was not written: {}", problem)};
@@ -162,7 +173,8 @@ Json FileArea::restore(const Json& params) {
     const std::string name = textOf(params, "name");
     std::string host;
     if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
-    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone()) fail(found);
+    if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone())
+        fail(found);
     if (!rapid::project::isBackup(host)) notFound(fmt::format("BACKUP:/{} is not a backup", name));
     refuseUnless(controller_.restore(host));
     return {};

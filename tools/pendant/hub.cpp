@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdio>
 #include <exception>
 
 namespace rapidc::pendant {
@@ -31,9 +31,9 @@ template <class Action> bool answering(Client& client, const Json& id, const Act
 
 Hub::Hub(const Shared& shared) : controller_(shared.controller) {
     const Context context{shared, *this};
-    for (const auto make : {makePanelArea, makeExecutionArea, makeBreakpointArea, makeModuleArea, makeFileArea,
-                            makeSignalArea, makeDataArea, makeDialogArea, makeEventArea, makeUnitArea,
-                            makeMotionArea, makeZoneArea, makeJogArea})
+    for (const auto make : {makePanelArea, makeExecutionArea, makeBreakpointArea, makeModuleArea,
+                            makeFileArea, makeSignalArea, makeDataArea, makeDialogArea, makeEventArea,
+                            makeUnitArea, makeMotionArea, makeZoneArea, makeJogArea})
         areas_.push_back(make(context));
     for (const auto& area : areas_)
         area->addTo(methods_);
@@ -67,7 +67,8 @@ void Hub::handle(const std::shared_ptr<Client>& client, const std::shared_ptr<co
         const auto method = request->find("method");
         if (method == request->end() || !method->is_string()) badRequest("method is missing");
         const auto params = request->find("params");
-        if (params != request->end() && !params->is_null() && !params->is_object()) badRequest("params must be an object");
+        if (params != request->end() && !params->is_null() && !params->is_object())
+            badRequest("params must be an object");
         entry = &methodFor(*client, method->get<std::string>());
     });
     if (!isKnown) return client->endRequest();
@@ -149,7 +150,15 @@ void Hub::tick() {
 
 void Hub::flush() {
     for (const auto& area : areas_)
-        area->flush();
+        guarded([&] { area->flush(); });
+}
+
+void Hub::guarded(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "web page: {}\n", error.what());
+    }
 }
 
 } // namespace rapidc::pendant

@@ -38,6 +38,9 @@ class Hub {
     void broadcastUnlessCongested(const char* event, const Json& data);
     static std::shared_ptr<const std::string> notification(const char* event, const Json& data);
 
+    /// Executes what no request waits for: a mistake there is reported on stderr and must not end the controller.
+    static void guarded(const std::function<void()>& action);
+
     /// From any thread: something is to be flushed.
     void wake() { isDirty_.store(true, std::memory_order_relaxed); }
     /// From any thread, each 33 ms: lets the areas send what has changed.

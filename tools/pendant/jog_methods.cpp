@@ -22,14 +22,17 @@ namespace {
 using rapid::config::sameName;
 
 enum class JogKind : uint8_t { Joint, Linear, Reorient, External };
-constexpr Word<JogKind> kKinds[] = {
-    {"joint", JogKind::Joint}, {"linear", JogKind::Linear}, {"reorient", JogKind::Reorient}, {"external", JogKind::External}};
+constexpr Word<JogKind> kKinds[] = {{"joint", JogKind::Joint},
+                                    {"linear", JogKind::Linear},
+                                    {"reorient", JogKind::Reorient},
+                                    {"external", JogKind::External}};
 constexpr Word<rt::JogFrame> kFrames[] = {{"world", rt::JogFrame::World},
                                           {"base", rt::JogFrame::Base},
                                           {"tool", rt::JogFrame::Tool},
                                           {"workObject", rt::JogFrame::WorkObject}};
 enum class TargetKind : uint8_t { Robtarget, Jointtarget };
-constexpr Word<TargetKind> kTargets[] = {{"robtarget", TargetKind::Robtarget}, {"jointtarget", TargetKind::Jointtarget}};
+constexpr Word<TargetKind> kTargets[] = {{"robtarget", TargetKind::Robtarget},
+                                         {"jointtarget", TargetKind::Jointtarget}};
 constexpr double kMostIncrement = 1000; // mm or degrees
 constexpr int64_t kMostLine = 10'000'000;
 
@@ -108,7 +111,8 @@ Json JogArea::start(const Json& params) {
     case JogKind::Linear: order.line = vector(); break;
     case JogKind::Reorient: order.turn = vector(); break;
     }
-    if (!unit.isRobot && kind != JogKind::External) badRequest(fmt::format("{} has no arm", unit.name), "Jog its external axes");
+    if (!unit.isRobot && kind != JogKind::External)
+        badRequest(fmt::format("{} has no arm", unit.name), "Jog its external axes");
     if (has(params, "increment")) {
         order.increment = numberOf(params, "increment");
         if (!(*order.increment > 0 && *order.increment <= kMostIncrement))
@@ -125,7 +129,9 @@ void JogArea::flush() {
     if (manual_.isJogging()) return hub_.wake();
     for (const std::string& name : std::exchange(moving_, {})) {
         const rt::MechanicalUnit* unit = manual_.unit(name);
-        hub_.broadcast("jog", {{"unit", name}, {"moving", false}, {"limit", unit != nullptr ? manual_.jogLimit(*unit) : ""}});
+        hub_.broadcast(
+            "jog",
+            {{"unit", name}, {"moving", false}, {"limit", unit != nullptr ? manual_.jogLimit(*unit) : ""}});
     }
 }
 
@@ -135,9 +141,7 @@ Json JogArea::choose(const Json& params) {
     if (has(params, "tool")) choice.tool = nameOf(textOf(params, "tool"));
     if (has(params, "workObject")) choice.workObject = nameOf(textOf(params, "workObject"));
     refuseUnless(manual_.choose(unit, choice));
-    NamedFrame tool, object;
-    tool.name = choice.tool, tool.isHeld = true;
-    object.name = choice.workObject;
+    NamedFrame tool = tool0(), object = workObject0();
     if (const rt::Task* task = manual_.taskOf(unit)) {
         for (const NamedFrame& each : toolsOf(controller_, *task))
             if (sameName(each.name, choice.tool)) tool = each;
@@ -169,13 +173,14 @@ Json JogArea::read(const Json& params) {
     motion::ExternalAxes external = target.extax;
     if (kinematics.hasArmAngle()) external[0] = target.armAngle;
     const robot::Pose& pose = target.pose;
-    return {{"value", fmt::format("[[{},{},{}],[{},{},{},{}],[{},{},{},{}],{}]", figure(pose.pos.x, 3), figure(pose.pos.y, 3),
-                                  figure(pose.pos.z, 3), figure(pose.rot.w, 7), figure(pose.rot.x, 7), figure(pose.rot.y, 7),
-                                  figure(pose.rot.z, 7), target.conf.cf1, target.conf.cf4, target.conf.cf6, target.conf.cfx,
-                                  axesText(external))}};
+    return {{"value",
+             fmt::format("[[{},{},{}],[{},{},{},{}],[{},{},{},{}],{}]", figure(pose.pos.x, 3),
+                         figure(pose.pos.y, 3), figure(pose.pos.z, 3), figure(pose.rot.w, 7),
+                         figure(pose.rot.x, 7), figure(pose.rot.y, 7), figure(pose.rot.z, 7), target.conf.cf1,
+                         target.conf.cf4, target.conf.cf6, target.conf.cfx, axesText(external))}};
 }
 
-/// The whole instruction in that line is looked at.
+/// The names in that line count; the rest of an instruction that continues on other lines does not.
 Json JogArea::modify(const Json& params) {
     const NamedModule named = moduleOf(controller_, params);
     const int64_t line = wholeOf(params, "line", 1, kMostLine);

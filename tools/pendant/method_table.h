@@ -46,7 +46,7 @@ class MethodTable {
     std::map<std::string, Entry> methods_;
 };
 
-/// What pages show and change; all of it outlives them.
+/// The parts of a controller that pages show and change; all of them outlive the pages.
 struct Shared {
     service::VirtualController& controller; ///< opened
     service::EventJournal& journal;
@@ -55,7 +55,7 @@ struct Shared {
     const service::FileVolumes& volumes;
 };
 
-/// What the methods work with.
+/// The parts that methods work with.
 struct Context : Shared {
     Hub& hub;
 };

@@ -34,7 +34,8 @@ class ModuleArea final : public Area {
         methods.add("modules.list", [this](Client&, const Json& params) { return list(params); });
         methods.add("modules.text", [this](Client&, const Json& params) {
             NamedModule named = moduleOf(controller_, params);
-            return Json{{"text", std::move(named.text)}, {"changes", controller_.structuralChanges(named.task)}};
+            return Json{{"text", std::move(named.text)},
+                        {"changes", controller_.structuralChanges(named.task)}};
         });
         methods.add("modules.setText", [this](Client&, const Json& params) { return setText(params); });
         methods.add("modules.load", [this](Client&, const Json& params) { return load(params); });
@@ -62,7 +63,8 @@ class ModuleArea final : public Area {
 std::string ModuleArea::shownPath(const std::string& host) const {
     for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK"}) {
         const std::string folder = controller_.folderOf(volume);
-        if (!folder.empty() && host.starts_with(folder + "/")) return fmt::format("{}:{}", volume, host.substr(folder.size()));
+        if (!folder.empty() && host.starts_with(folder + "/"))
+            return fmt::format("{}:{}", volume, host.substr(folder.size()));
     }
     return {};
 }
@@ -72,9 +74,13 @@ Json ModuleArea::list(const Json& params) {
     Json modules = Json::array();
     for (const rt::LoadedModule& module : controller_.core().tables().modules()) {
         std::string text;
-        if (module.task != static_cast<int32_t>(task.index()) || !controller_.moduleText(task, module.name, text)) continue;
+        if (module.task != static_cast<int32_t>(task.index()) ||
+            !controller_.moduleText(task, module.name, text))
+            continue;
         const std::string attributes = rws::attributesOf(text, module.name);
-        const auto hasAttribute = [&](const char* name) { return rapid::config::containsName(attributes, name); };
+        const auto hasAttribute = [&](const char* name) {
+            return rapid::config::containsName(attributes, name);
+        };
         modules.push_back({{"name", module.name},
                            {"kind", hasAttribute("SYSMODULE") ? "system" : "program"},
                            {"lines", rws::sizeOf(text).first},
@@ -88,8 +94,10 @@ Json ModuleArea::setText(const Json& params) {
     const NamedModule named = moduleOf(controller_, params);
     const std::string text = textOf(params, "text");
     const uint64_t changes = controller_.structuralChanges(named.task);
-    if (has(params, "changes") && static_cast<uint64_t>(wholeOf(params, "changes", 0, int64_t{1} << 53)) != changes)
-        throw RequestError{code::kRefused, "The program has changed since this text was read", "Read the text again"};
+    if (has(params, "changes") &&
+        static_cast<uint64_t>(wholeOf(params, "changes", 0, int64_t{1} << 53)) != changes)
+        throw RequestError{code::kRefused, "The program has changed since this text was read",
+                           "Read the text again"};
     const std::string refusal = controller_.setModuleText(named.task, std::string(named.module.name), text);
     if (refusal.find('\n') != std::string::npos) badRequest(refusal); // mistakes, one per line
     refuseUnless(refusal);
@@ -99,7 +107,8 @@ Json ModuleArea::setText(const Json& params) {
 Json ModuleArea::load(const Json& params) {
     rt::Task& task = taskOf(controller_, params);
     const HostFile file = fileOf(controller_, params, "path");
-    const std::string refusal = controller_.loadModule(task, file.host, file.rapid, flagOr(params, "replace", false));
+    const std::string refusal =
+        controller_.loadModule(task, file.host, file.rapid, flagOr(params, "replace", false));
     if (refusal.find('\n') != std::string::npos) badRequest(refusal);
     refuseUnless(refusal);
     return {};
@@ -111,15 +120,21 @@ Json ModuleArea::save(const Json& params) {
     if (!has(params, "path")) {
         const std::string origin = shownPath(named.module.file);
         const bool isSystem = rws::isSystemModule(named.text, named.module.name);
-        target["path"] = origin.empty() ? fmt::format("HOME:/{}.{}", named.module.name, isSystem ? "sys" : "mod") : origin;
+        target["path"] =
+            origin.empty() ? fmt::format("HOME:/{}.{}", named.module.name, isSystem ? "sys" : "mod") : origin;
     }
     const HostFile file = fileOf(controller_, target, "path");
     static constexpr const char* kExtensions[] = {".mod", ".modx", ".sys", ".sysx", ".prg"};
-    const bool isModule = std::any_of(std::begin(kExtensions), std::end(kExtensions),
-                                      [&](const char* extension) { return endsWithName(file.rapid, extension); });
-    if (!isModule) badRequest(fmt::format("{} is no file of a module", file.rapid), "Let its name end in .mod, .modx, .sys or .sysx");
-    const std::string problem = rws::saveModule(controller_.core(), named.task, named.module, named.text, file.host);
-    if (!problem.empty()) throw RequestError{code::kFailed, fmt::format("{} cannot be written: {}", file.rapid, problem)};
+    const bool isModule =
+        std::any_of(std::begin(kExtensions), std::end(kExtensions),
+                    [&](const char* extension) { return endsWithName(file.rapid, extension); });
+    if (!isModule)
+        badRequest(fmt::format("{} is not a file of a module", file.rapid),
+                   "Let its name end in .mod, .modx, .sys or .sysx");
+    const std::string problem =
+        rws::saveModule(controller_.core(), named.task, named.module, named.text, file.host);
+    if (!problem.empty())
+        throw RequestError{code::kFailed, fmt::format("{} cannot be written: {}", file.rapid, problem)};
     return {{"path", file.rapid}};
 }
 

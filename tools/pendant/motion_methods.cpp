@@ -9,8 +9,8 @@
 #include "tools/pendant/unit_frames.h"
 #include "tools/service/manual_motion.h"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace rapidc::pendant {
 
@@ -51,7 +51,7 @@ class MotionArea final : public Area {
     explicit MotionArea(const Context& context)
         : controller_(context.controller), manual_(context.manual), hub_(context.hub) {
         service::Observer observer;
-        observer.motion = [this] { sample(); };
+        observer.motion = [this] { Hub::guarded([this] { sample(); }); };
         observer.changed = [this](service::Change change, const rt::Task*) {
             if (change == service::Change::Generation) begin();
         };
@@ -69,11 +69,12 @@ class MotionArea final : public Area {
     void describe(Json& state) override { state["motion"] = sampleOf(true); }
 
   private:
-    /// What was sent last of a unit.
+    /// The last sample of a unit that was sent.
     struct Sent {
         robot::Joints joints;
         motion::ExternalAxes external = motion::kNoExternalAxes;
-        robot::Pose tcp, tool, workObject;
+        robot::Pose tcp;
+        FramesInForce frames;
         bool moving = false;
     };
 
@@ -89,7 +90,7 @@ class MotionArea final : public Area {
     Hub& hub_;
     service::Observers::Token observer_ = 0;
     Clock::time_point next_;
-    std::vector<Sent> sent_;                           ///< by motion group
+    std::vector<Sent> sent_;                            ///< by motion group
     std::vector<std::unique_ptr<PlannedPath>> planned_; ///< by motion group
 };
 
@@ -121,33 +122,37 @@ Json MotionArea::sampleOf(bool all) {
         motion::MotionSystem& system = motions[i]->system();
         const motion::MotionState state = system.current();
         Sent& sent = sent_[i];
-        const bool isSame = state.joints == sent.joints && state.extax == sent.external && state.tcp == sent.tcp &&
-                            state.moving == sent.moving;
+        const bool isSame = state.joints == sent.joints && state.extax == sent.external &&
+                            state.tcp == sent.tcp && state.moving == sent.moving;
         if (isSame && !all) continue;
-        if (!all) sent.joints = state.joints, sent.external = state.extax, sent.tcp = state.tcp, sent.moving = state.moving;
+        if (!all)
+            sent.joints = state.joints, sent.external = state.extax, sent.tcp = state.tcp,
+            sent.moving = state.moving;
         const bool hasArm = motions[i]->model().kinematics != robot::KinematicsKind::NoArm;
         const robot::Pose flange = hasArm ? system.kinematics().forward(state.joints) : robot::Pose{};
-        Json unit = Json::array({i, hasArm ? jointsJson(state.joints) : Json::array(), externalJson(state.extax),
-                                 poseJson(state.tcp), poseJson(flange), rounded(state.tcpSpeed, 2), state.moving ? 1 : 0});
+        Json unit = Json::array({i, hasArm ? jointsJson(state.joints) : Json::array(),
+                                 externalJson(state.extax), poseJson(state.tcp), poseJson(flange),
+                                 rounded(state.tcpSpeed, 2), state.moving ? 1 : 0});
         const std::size_t group = motions[i]->group();
         const auto& groups = controller_.core().units().groups();
         if (hasArm && group < groups.size() && groups[group].options.baseMover != nullptr)
             unit.push_back(poseJson(system.flangeInWorld({state.joints, state.extax}) * inverse(flange)));
         units.push_back(std::move(unit));
     }
-    return {{"t", rounded(rt::toSeconds(controller_.core().scheduler().now()), 4)}, {"units", std::move(units)}};
+    return {{"t", rounded(rt::toSeconds(controller_.core().scheduler().now()), 4)},
+            {"units", std::move(units)}};
 }
 
 void MotionArea::lookAtFrames(std::size_t unit) {
     const rt::MotionDriver& motion = *controller_.core().motions()[unit];
     rt::Task* task = taskMoving(controller_, motion);
     if (task == nullptr) return;
+    const FramesInForce frames = framesInForce(*task);
+    if (std::exchange(sent_[unit].frames, frames) == frames) return;
     const NamedFrame tool = toolInForce(controller_, *task), object = workObjectInForce(controller_, *task);
-    Sent& sent = sent_[unit];
-    if (tool.pose == sent.tool && object.pose == sent.workObject) return;
-    sent.tool = tool.pose;
-    sent.workObject = object.pose;
-    hub_.broadcast("frames", {{"unit", motion.unitName()}, {"tool", frameJson(tool)}, {"workObject", frameJson(object)}});
+    hub_.broadcast(
+        "frames",
+        {{"unit", motion.unitName()}, {"tool", frameJson(tool)}, {"workObject", frameJson(object)}});
 }
 
 Json MotionArea::positions() const {
@@ -155,21 +160,26 @@ Json MotionArea::positions() const {
     for (const auto& motion : controller_.core().motions()) {
         motion::MotionSystem& system = motion->system();
         const motion::JointTarget joints = system.currentJoints();
-        Json json{{"unit", motion->unitName()}, {"joints", jointsJson(joints.robax)}, {"external", externalJson(joints.extax)}};
+        Json json{{"unit", motion->unitName()},
+                  {"joints", jointsJson(joints.robax)},
+                  {"external", externalJson(joints.extax)}};
         const rt::MechanicalUnit* unit = manual_.unit(motion->unitName());
         motion::FrameSetup frames;
         const bool hasArm = motion->model().kinematics != robot::KinematicsKind::NoArm;
         const auto choice = unit != nullptr ? manual_.choice(*unit) : service::UnitChoice{};
-        if (hasArm && unit != nullptr && manual_.framesOf(*unit, choice.tool, choice.workObject, frames).empty()) {
+        if (hasArm && unit != nullptr &&
+            manual_.framesOf(*unit, choice.tool, choice.workObject, frames).empty()) {
             const motion::RobTarget target = system.currentTarget(frames);
             const robot::Pose flange = system.kinematics().forward(joints.robax);
             const robot::Pose base = system.flangeInWorld(joints) * inverse(flange);
-            const robot::Pose world = frames.tool.robotHeld ? base * flange * frames.tool.tframe : frames.tool.tframe;
+            const robot::Pose world =
+                frames.tool.robotHeld ? base * flange * frames.tool.tframe : frames.tool.tframe;
             json["tcp"] = poseJson(target.pose);
             json["world"] = poseJson(world);
             json["base"] = poseJson(inverse(base) * world);
             json["flange"] = poseJson(flange);
-            json["config"] = Json::array({target.conf.cf1, target.conf.cf4, target.conf.cf6, target.conf.cfx});
+            json["config"] =
+                Json::array({target.conf.cf1, target.conf.cf4, target.conf.cf6, target.conf.cfx});
             json["tool"] = choice.tool;
             json["workObject"] = choice.workObject;
         }
@@ -185,7 +195,10 @@ Json MotionArea::planned(const Json& params) {
     for (const PlannedPath::Move& move : planned_[motion.group()]->moves()) {
         for (const robot::Vec3& point : move.points)
             if (points.size() < most) points.push_back(vectorJson(point));
-        moves.push_back({{"kind", kindOf(move.kind)}, {"to", poseJson(move.to)}, {"module", move.module}, {"line", move.line}});
+        moves.push_back({{"kind", kindOf(move.kind)},
+                         {"to", poseJson(move.to)},
+                         {"module", move.module},
+                         {"line", move.line}});
     }
     return {{"points", std::move(points)}, {"moves", std::move(moves)}};
 }

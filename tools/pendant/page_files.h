@@ -11,19 +11,17 @@ struct PageFile {
     std::string_view path; ///< "/app.js"; "/" is the page itself
     std::string_view type; ///< "text/javascript;charset=utf-8"
     std::string_view bytes;
-    bool compressed = false; ///< bytes are gzip
+    bool isCompressed = false; ///< bytes are gzip
 };
 
 /// Files in any order; they live as long as the program.
 using PageFiles = std::span<const PageFile>;
 
-/// A page that says that the page was not built.
-PageFiles fallbackPage();
-
-/// The page of web/pendant, or fallbackPage() where its packages were missing when this executable was built.
+/// The page; where it could not be built, fallbackPage(). Generated (web/pendant/page.cmake).
 PageFiles builtPage();
-
-/// The file for a client that does not take gzip.
-std::string unpacked(const PageFile& file);
+/// A page that says how the page is built.
+PageFiles fallbackPage();
+/// The bytes of a file for clients that do not take gzip.
+std::string plainBytes(const PageFile& file);
 
 } // namespace rapidc::pendant

@@ -13,7 +13,8 @@ namespace rapidc::pendant {
 namespace {
 
 constexpr int kMostSockets = 32;
-constexpr std::size_t kLargestBody = 64 * 1024; // nothing is sent to a page; bytes that are read and dropped
+constexpr std::size_t kLargestBody =
+    std::size_t{64} * 1024; // nothing is sent to a page; bytes that are read and dropped
 constexpr std::chrono::seconds kLockTime{1};
 constexpr std::size_t kMostLocked = 1000;
 
@@ -45,19 +46,13 @@ std::string_view pathOf(std::string_view target) {
     return target.substr(0, target.find('?'));
 }
 
-/// Browsers say "gzip, deflate, br"; a weight of 0 is a refusal.
-bool takesGzip(const http::Request& request) {
-    const std::string_view accepted = request.header("Accept-Encoding");
-    const std::size_t at = accepted.find("gzip");
-    return at != std::string_view::npos && !accepted.substr(at).starts_with("gzip;q=0");
-}
-
 } // namespace
 
 /// A socket at /api. It hands requests to the controller's thread.
 class PendantService::Socket final : public http::SocketListener {
   public:
-    Socket(PendantService& service, std::string peer) : service_(service), sockets_(service.sockets_), peer_(std::move(peer)) {}
+    Socket(PendantService& service, std::string peer)
+        : service_(service), sockets_(service.sockets_), peer_(std::move(peer)) {}
     ~Socket() override { --*sockets_; }
     Socket(const Socket&) = delete;
     Socket& operator=(const Socket&) = delete;
@@ -77,9 +72,11 @@ class PendantService::Socket final : public http::SocketListener {
         if (id == request.end() || !id->is_number_unsigned() || id->get<uint64_t>() > (uint64_t{1} << 53))
             return client_->refuse(nullptr, {code::kBadRequest, "id must be a whole number"});
         if (!client_->beginRequest())
-            return client_->refuse(*id, {code::kBusy, "Too many requests wait for an answer", "Send it later"});
+            return client_->refuse(*id,
+                                   {code::kBusy, "Too many requests wait for an answer", "Send it later"});
         auto shared = std::make_shared<const Json>(std::move(request));
-        service_.controller_.post([&hub = service_.hub_, client = client_, shared] { hub.handle(client, shared); });
+        service_.controller_.post(
+            [&hub = service_.hub_, client = client_, shared] { hub.handle(client, shared); });
     }
 
     void closed() override {
@@ -96,8 +93,9 @@ class PendantService::Socket final : public http::SocketListener {
 
 PendantService::PendantService(const Shared& shared, PendantSettings settings)
     : controller_(shared.controller), settings_(std::move(settings)), hub_(shared) {
-    hub_.setPasswordCheck(
-        [this](const Client& client, const std::string& password) { return checkPassword(client, password); });
+    hub_.setPasswordCheck([this](const Client& client, const std::string& password) {
+        return checkPassword(client, password);
+    });
 }
 
 PendantService::~PendantService() = default;
@@ -157,11 +155,12 @@ void PendantService::handle(http::Request request, http::Respond respond) {
     const auto found = std::find_if(settings_.files.begin(), settings_.files.end(),
                                     [&](const PageFile& file) { return file.path == path; });
     if (found == settings_.files.end()) return respond(plain(404, "There is no such file"));
-    const bool packed = found->compressed && takesGzip(request);
-    http::Response response =
-        http::Response::text(200, packed ? std::string(found->bytes) : unpacked(*found), std::string(found->type));
-    if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
-    if (found->compressed) response.headers.emplace_back("Vary", "Accept-Encoding");
+    const bool takesGzip = request.header("Accept-Encoding").find("gzip") != std::string_view::npos;
+    const bool sendsGzip = found->isCompressed && takesGzip;
+    http::Response response = http::Response::text(
+        200, sendsGzip ? std::string(found->bytes) : plainBytes(*found), std::string(found->type));
+    if (found->isCompressed) response.headers.emplace_back("Vary", "Accept-Encoding");
+    if (sendsGzip) response.headers.emplace_back("Content-Encoding", "gzip");
     respond(secured(std::move(response)));
 }
 

@@ -2,7 +2,7 @@
 // PendantService: the web page of a controller and its WebSocket, for the HTTP server.
 //
 //     pendant::PendantService pendant({controller, journal, manual, configuration, volumes},
-//                                     {.files = pendant::fallbackPage(), .password = password, .address = address});
+//                                     {.password = password, .address = address});
 //     uint16_t port = 0;
 //     server.listen({.address = address, .port = wanted, .service = &pendant}, port);
 //     pendant.setPort(port);
@@ -25,7 +25,7 @@
 namespace rapidc::pendant {
 
 struct PendantSettings {
-    PageFiles files = fallbackPage();
+    PageFiles files = builtPage();
     std::string password;              ///< of pages on other computers
     std::string address = "127.0.0.1"; ///< of the network interface
 };

@@ -13,7 +13,8 @@ constexpr int kJointPieces = 24, kCirclePieces = 32;
 constexpr double kStraight = 1e-6; // of the sine: three points on a line
 
 /// TCP in world at these joints.
-robot::Pose tcpAt(motion::MotionSystem& system, const motion::FrameSetup& frames, const motion::JointTarget& joints) {
+robot::Pose tcpAt(motion::MotionSystem& system, const motion::FrameSetup& frames,
+                  const motion::JointTarget& joints) {
     return frames.tool.robotHeld ? system.flangeInWorld(joints) * frames.tool.tframe : frames.tool.tframe;
 }
 
@@ -50,9 +51,10 @@ std::vector<Vec3> circle(const Vec3& a, const Vec3& b, const Vec3& c) {
 } // namespace
 
 PlannedPath::PlannedPath(rt::MotionDriver& motion) : motion_(motion) {
-    motion_.addOrderListener([this, alive = std::weak_ptr<int>(alive_)](const rt::MotionDriver::Ordered& ordered) {
-        if (!alive.expired()) note(ordered);
-    });
+    motion_.addOrderListener(
+        [this, alive = std::weak_ptr<int>(alive_)](const rt::MotionDriver::Ordered& ordered) {
+            if (!alive.expired()) note(ordered);
+        });
 }
 
 void PlannedPath::note(const rt::MotionDriver::Ordered& ordered) {
@@ -67,7 +69,8 @@ void PlannedPath::note(const rt::MotionDriver::Ordered& ordered) {
     const Vec3 from = tcpAt(system, frames, ordered.from).pos;
     if (const rt::MotionPointer& pointer = motion_.pointer(); pointer.valid && pointer.routine != nullptr) {
         move.module = pointer.routine->module;
-        const bool isKnown = pointer.statement >= 0 && static_cast<uint32_t>(pointer.statement) < pointer.routine->statementCount;
+        const bool isKnown = pointer.statement >= 0 &&
+                             static_cast<uint32_t>(pointer.statement) < pointer.routine->statementCount;
         if (isKnown) move.line = pointer.routine->statements[pointer.statement].line;
     }
     switch (move.kind) {
@@ -80,7 +83,10 @@ void PlannedPath::note(const rt::MotionDriver::Ordered& ordered) {
     }
     default:
         for (int i = 0; i <= kJointPieces; ++i)
-            move.points.push_back(tcpAt(system, frames, between(ordered.from, ordered.to, static_cast<double>(i) / kJointPieces)).pos);
+            move.points.push_back(
+                tcpAt(system, frames,
+                      between(ordered.from, ordered.to, static_cast<double>(i) / kJointPieces))
+                    .pos);
     }
     moves_.push_back(std::move(move));
 }

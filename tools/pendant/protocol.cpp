@@ -22,7 +22,8 @@ const Json& required(const Json& params, const char* name) {
 }
 
 std::string capitalized(std::string text) {
-    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+        text.front() = static_cast<char>(text.front() - 'a' + 'A');
     return text;
 }
 
@@ -33,7 +34,8 @@ void refuseUnless(const std::string& refusal) {
     const std::size_t colon = refusal.find(": ");
     const bool hasRemedy = colon != std::string::npos && refusal.find('\n') == std::string::npos;
     if (!hasRemedy) throw RequestError{code::kRefused, capitalized(refusal)};
-    throw RequestError{code::kRefused, capitalized(refusal.substr(0, colon)), capitalized(refusal.substr(colon + 2))};
+    throw RequestError{code::kRefused, capitalized(refusal.substr(0, colon)),
+                       capitalized(refusal.substr(colon + 2))};
 }
 
 void notFound(std::string message) {
@@ -52,7 +54,8 @@ std::string textOf(const Json& params, const char* name) {
     const Json& member = required(params, name);
     if (!member.is_string()) badRequest(fmt::format("parameter {} must be a text", name));
     std::string text = member.get<std::string>();
-    if (text.find('\0') != std::string::npos) badRequest(fmt::format("parameter {} must not hold a NUL", name));
+    if (text.find('\0') != std::string::npos)
+        badRequest(fmt::format("parameter {} must not hold a NUL", name));
     return text;
 }
 
@@ -92,7 +95,8 @@ std::vector<std::string> textsOf(const Json& params, const char* name, std::size
     const Json& member = required(params, name);
     if (!member.is_array()) badRequest(fmt::format("parameter {} must be a list of texts", name));
     if (member.size() > most)
-        throw RequestError{code::kTooLarge, fmt::format("parameter {} has {} entries; {} are possible", name, member.size(), most)};
+        throw RequestError{code::kTooLarge, fmt::format("parameter {} has {} entries; {} are possible", name,
+                                                        member.size(), most)};
     std::vector<std::string> texts;
     for (const Json& each : member) {
         if (!each.is_string()) badRequest(fmt::format("parameter {} must be a list of texts", name));

@@ -1,5 +1,5 @@
 #pragma once
-// Words of the protocol (docs/pendant.md): errors, and the readers of parameters. What is missing or wrong becomes a RequestError.
+// Words of the protocol (docs/pendant.md): errors, and the readers of parameters. A parameter that is missing or wrong becomes a RequestError.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -57,7 +57,8 @@ template <class Value> struct Word {
 };
 [[noreturn]] void noSuchWord(const char* name, const std::vector<const char*>& words);
 /// One of the words.
-template <class Value, std::size_t N> Value wordOf(const Json& params, const char* name, const Word<Value> (&words)[N]) {
+template <class Value, std::size_t N>
+Value wordOf(const Json& params, const char* name, const Word<Value> (&words)[N]) {
     const std::string text = textOf(params, name);
     std::vector<const char*> known;
     for (const Word<Value>& word : words) {

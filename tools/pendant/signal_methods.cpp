@@ -19,7 +19,7 @@ namespace {
 using rapid::config::sameName;
 using service::Change;
 
-constexpr std::size_t kMostNames = 10'000; // of a subscription
+constexpr std::size_t kMostNames = 10'000;  // of a subscription
 constexpr std::size_t kMostChanges = 4'000; // between two messages; then only the last values are sent
 constexpr int kDecimals = 6;
 
@@ -141,7 +141,8 @@ bool SignalArea::mayWrite(const rt::SignalConfig& config) const {
         if (!sameName(level->text("Name"), config.access)) continue;
         const bool automatic = controller_.panel().mode == service::OperatingMode::Auto;
         const rt::CfgAttribute* local = level->find(automatic ? "LocalAuto" : "LocalManual");
-        return local != nullptr && !sameName(local->text(), "ReadOnly") && level->flag(automatic ? "LocalAuto" : "LocalManual");
+        return local != nullptr && !sameName(local->text(), "ReadOnly") &&
+               level->flag(automatic ? "LocalAuto" : "LocalManual");
     }
     return true;
 }
@@ -157,7 +158,8 @@ Json SignalArea::entryFor(rt::SignalId signal) const {
             {"category", config.category},
             {"min", rounded(config.minValue, kDecimals)},
             {"max", rounded(config.maxValue, kDecimals)},
-            {"writable", mayWrite(config) && (!rt::isInput(config.type) || config.device.empty() || io().isSimulated(signal))}};
+            {"writable", mayWrite(config) && (!rt::isInput(config.type) || config.device.empty() ||
+                                              io().isSimulated(signal))}};
 }
 
 Json SignalArea::list(const Json& params) const {
@@ -183,18 +185,26 @@ Json SignalArea::set(const Json& params) {
     const rt::SignalConfig& config = io().config(signal);
     const double value = numberOf(params, "value");
     if (!mayWrite(config))
-        throw RequestError{code::kRefused, fmt::format("The access level {} of {} does not let this page write it", config.access, config.name),
+        throw RequestError{code::kRefused,
+                           fmt::format("The access level {} of {} does not let this page write it",
+                                       config.access, config.name),
                            "Change Access in EIO.cfg, or the operating mode"};
     if (rt::isInput(config.type) && !config.device.empty() && !io().isSimulated(signal))
-        throw RequestError{code::kRefused, fmt::format("{} is an input of device {}", config.name, config.device), "Simulate it first"};
+        throw RequestError{code::kRefused,
+                           fmt::format("{} is an input of device {}", config.name, config.device),
+                           "Simulate it first"};
     const bool isWhole = value == std::floor(value);
     if ((rt::isDigital(config.type) && value != 0 && value != 1) || (rt::isGroup(config.type) && !isWhole))
-        badRequest(fmt::format("{} is not a value of {} ({})", value, config.name, rt::signalTypeName(config.type)));
+        badRequest(
+            fmt::format("{} is not a value of {} ({})", value, config.name, rt::signalTypeName(config.type)));
     switch (io().setByClient(signal, value)) {
     case rt::IoResult::Ok: return {};
     case rt::IoResult::NotWritable:
-        throw RequestError{code::kRefused, fmt::format("A cross connection sets {}", config.name), "Simulate it first"};
-    default: badRequest(fmt::format("{} is outside the range {} to {} of {}", value, config.minValue, config.maxValue, config.name));
+        throw RequestError{code::kRefused, fmt::format("A cross connection sets {}", config.name),
+                           "Simulate it first"};
+    default:
+        badRequest(fmt::format("{} is outside the range {} to {} of {}", value, config.minValue,
+                               config.maxValue, config.name));
     }
 }
 
@@ -203,7 +213,9 @@ Json SignalArea::simulate(const Json& params) {
     const bool on = flagOf(params, "on");
     const rt::SignalConfig& config = io().config(signal);
     if (!mayWrite(config))
-        throw RequestError{code::kRefused, fmt::format("The access level {} of {} does not let this page simulate it", config.access, config.name),
+        throw RequestError{code::kRefused,
+                           fmt::format("The access level {} of {} does not let this page simulate it",
+                                       config.access, config.name),
                            "Change Access in EIO.cfg, or the operating mode"};
     if (io().isSimulated(signal) == on) return {};
     io().simulate(signal, on);
@@ -232,7 +244,8 @@ void SignalArea::addTo(MethodTable& methods) {
     methods.add("signals.list", [this](Client&, const Json& params) { return list(params); });
     methods.add("signals.set", [this](Client&, const Json& params) { return set(params); });
     methods.add("signals.simulate", [this](Client&, const Json& params) { return simulate(params); });
-    methods.add("signals.subscribe", [this](Client& client, const Json& params) { return subscribe(client, params); });
+    methods.add("signals.subscribe",
+                [this](Client& client, const Json& params) { return subscribe(client, params); });
 }
 
 } // namespace

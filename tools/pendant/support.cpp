@@ -44,12 +44,14 @@ HostFile fileOf(service::VirtualController& controller, const Json& params, cons
     const std::string path = textOf(params, name);
     std::optional<rws::VolumePath> found = rws::volumePath(controller, path);
     if (!found)
-        badRequest(fmt::format("{} is not in a volume of the controller", path), "Write it as HOME:/folder/name");
+        badRequest(fmt::format("{} is not in a volume of the controller", path),
+                   "Write it as HOME:/folder/name");
     return {std::move(found->rapid), std::move(found->host)};
 }
 
 Json vectorJson(const robot::Vec3& vector) {
-    return Json::array({rounded(vector.x, kMillimetres), rounded(vector.y, kMillimetres), rounded(vector.z, kMillimetres)});
+    return Json::array(
+        {rounded(vector.x, kMillimetres), rounded(vector.y, kMillimetres), rounded(vector.z, kMillimetres)});
 }
 
 Json poseJson(const robot::Pose& pose) {
@@ -61,12 +63,8 @@ Json poseJson(const robot::Pose& pose) {
 
 Json placeJson(const std::optional<service::PointerPlace>& place) {
     if (!place) return nullptr;
-    return {{"module", place->module},
-            {"routine", place->routine},
-            {"line", place->beginLine},
-            {"column", place->beginColumn},
-            {"endLine", place->endLine},
-            {"endColumn", place->endColumn},
+    return {{"module", place->module},      {"routine", place->routine}, {"line", place->beginLine},
+            {"column", place->beginColumn}, {"endLine", place->endLine}, {"endColumn", place->endColumn},
             {"level", place->executionType}};
 }
 

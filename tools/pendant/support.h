@@ -1,5 +1,5 @@
 #pragma once
-// What the areas share: tasks and modules that parameters name, paths of volumes, poses and places as JSON. On the controller's thread.
+// Support for all areas: tasks and modules that parameters name, paths of volumes, poses and places as JSON. On the controller's thread.
 
 #include "runtime/robot/frames.h"
 #include "tools/pendant/protocol.h"

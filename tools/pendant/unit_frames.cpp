@@ -8,8 +8,6 @@
 #include "stdlib/impl/motion/state.h"
 #include "tools/pendant/support.h"
 
-#include <functional>
-
 namespace rapidc::pendant {
 
 namespace {
@@ -38,11 +36,14 @@ NamedFrame frameOf(const rt::data::Wobjdata& object) {
 }
 
 template <class Data>
-std::vector<NamedFrame> framesOf(service::VirtualController& controller, const rt::Task& task, const char* type) {
+std::vector<NamedFrame> framesOf(service::VirtualController& controller, const rt::Task& task,
+                                 const char* type) {
     std::vector<NamedFrame> frames;
     const rt::ProgramTables& tables = controller.core().tables();
     for (const rt::GlobalDesc* global : tables.globals()) {
-        if (!sameName(global->type->baseName, type) || !tables.isDeclaredIn(*global, static_cast<int32_t>(task.index()))) continue;
+        if (!sameName(global->type->baseName, type) ||
+            !tables.isDeclaredIn(*global, static_cast<int32_t>(task.index())))
+            continue;
         if ((global->flags & rt::kDataPredefined) != 0) continue;
         const rt::DebugVariable variable = rt::dataOf(*global);
         if (variable.rank > 0 || variable.data == nullptr || variable.isConstant) continue;
@@ -54,14 +55,29 @@ std::vector<NamedFrame> framesOf(service::VirtualController& controller, const r
     return frames;
 }
 
-NamedFrame named(NamedFrame frame, const std::vector<NamedFrame>& known, const char* standard, bool isStandardHeld) {
+NamedFrame named(NamedFrame frame, const std::vector<NamedFrame>& known, const char* standard,
+                 bool isStandardHeld) {
     if (frame.pose == robot::Pose{} && frame.isHeld == isStandardHeld) frame.name = standard;
     for (const NamedFrame& each : known)
-        if (each.pose == frame.pose && each.isHeld == frame.isHeld) frame.name = each.name, frame.module = each.module;
+        if (each.pose == frame.pose && each.isHeld == frame.isHeld)
+            frame.name = each.name, frame.module = each.module;
     return frame;
 }
 
 } // namespace
+
+NamedFrame tool0() {
+    NamedFrame frame;
+    frame.name = "tool0";
+    frame.isHeld = true;
+    return frame;
+}
+
+NamedFrame workObject0() {
+    NamedFrame frame;
+    frame.name = "wobj0";
+    return frame;
+}
 
 rt::Task* taskMoving(service::VirtualController& controller, const rt::MotionDriver& motion) {
     for (const auto& task : controller.core().tasks())
@@ -82,11 +98,20 @@ NamedFrame toolInForce(service::VirtualController& controller, rt::Task& task) {
 }
 
 NamedFrame workObjectInForce(service::VirtualController& controller, rt::Task& task) {
-    return named(frameOf(rt::lib::motionState(&task).workObject), workObjectsOf(controller, task), "wobj0", false);
+    return named(frameOf(rt::lib::motionState(&task).workObject), workObjectsOf(controller, task), "wobj0",
+                 false);
+}
+
+FramesInForce framesInForce(rt::Task& task) {
+    const rt::lib::MotionState& state = rt::lib::motionState(&task);
+    return {frameOf(state.tool).pose, frameOf(state.workObject).pose};
 }
 
 Json frameJson(const NamedFrame& frame) {
-    return {{"name", frame.name}, {"module", frame.module}, {"pose", poseJson(frame.pose)}, {"held", frame.isHeld}};
+    return {{"name", frame.name},
+            {"module", frame.module},
+            {"pose", poseJson(frame.pose)},
+            {"held", frame.isHeld}};
 }
 
 } // namespace rapidc::pendant

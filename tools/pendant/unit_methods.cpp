@@ -47,14 +47,15 @@ Json bodyJson(const Body& body) {
         terms.push_back(Json::array({joint, factor}));
     for (const Solid& solid : body.solids)
         solids.push_back(solidJson(solid));
-    return {{"name", body.name},
-            {"parent", body.parent},
-            {"origin", poseJson(body.origin)},
-            {"axis", Json::array({rounded(body.axis.x, 7), rounded(body.axis.y, 7), rounded(body.axis.z, 7)})},
-            {"motion", motionName(body.motion)},
-            {"constant", rounded(body.constant, kDegrees)},
-            {"terms", std::move(terms)},
-            {"solids", std::move(solids)}};
+    return {
+        {"name", body.name},
+        {"parent", body.parent},
+        {"origin", poseJson(body.origin)},
+        {"axis", Json::array({rounded(body.axis.x, 7), rounded(body.axis.y, 7), rounded(body.axis.z, 7)})},
+        {"motion", motionName(body.motion)},
+        {"constant", rounded(body.constant, kDegrees)},
+        {"terms", std::move(terms)},
+        {"solids", std::move(solids)}};
 }
 
 Json jointsJson(const rt::MotionDriver& motion, const robot::Kinematics& kinematics) {
@@ -133,13 +134,14 @@ Json UnitArea::unitJson(rt::MotionDriver& motion) const {
               {"external", externalJson(motion)},
               {"bodies", std::move(bodies)},
               {"reach", rounded(motion.model().reachM * 1000, 0)}};
-    if (hasArm) json["base"] = poseJson(system.flangeInWorld(joints) * inverse(kinematics.forward(joints.robax)));
-    if (task != nullptr) {
-        const NamedFrame tool = toolInForce(controller_, *task);
-        json["tool"] = frameJson(tool);
-        json["toolMass"] = rounded(tool.massKg, 3);
-        json["workObject"] = frameJson(workObjectInForce(controller_, *task));
-    }
+    if (hasArm)
+        json["base"] = poseJson(system.flangeInWorld(joints) * inverse(kinematics.forward(joints.robax)));
+    NamedFrame tool = tool0(), object = workObject0();
+    if (task != nullptr)
+        tool = toolInForce(controller_, *task), object = workObjectInForce(controller_, *task);
+    json["tool"] = frameJson(tool);
+    json["toolMass"] = rounded(tool.massKg, 3);
+    json["workObject"] = frameJson(object);
     if (const rt::MechanicalUnit* unit = manual_.unit(motion.unitName())) {
         json["jogTool"] = manual_.choice(*unit).tool;
         json["jogWorkObject"] = manual_.choice(*unit).workObject;
@@ -150,11 +152,8 @@ Json UnitArea::unitJson(rt::MotionDriver& motion) const {
 Json UnitArea::frames(const Json& params) const {
     const rt::MotionDriver& motion = motionOf(controller_, textOf(params, "unit"));
     Json tools = Json::array(), objects = Json::array();
-    NamedFrame tool0, object0;
-    tool0.name = "tool0", tool0.isHeld = true;
-    object0.name = "wobj0";
-    tools.push_back(frameJson(tool0));
-    objects.push_back(frameJson(object0));
+    tools.push_back(frameJson(tool0()));
+    objects.push_back(frameJson(workObject0()));
     if (const rt::Task* task = taskMoving(controller_, motion)) {
         for (const NamedFrame& each : toolsOf(controller_, *task)) {
             tools.push_back(frameJson(each));

@@ -39,7 +39,8 @@ void addShape(const ZoneShape& shape, Json& json) {
         break;
     case ZoneShape::Kind::Cylinder:
         json["kind"] = "cylinder";
-        json["cylinder"] = {{"centre", vectorJson(vector(shape.low))}, {"radius", shape.radius}, {"height", shape.height}};
+        json["cylinder"] = {
+            {"centre", vectorJson(vector(shape.low))}, {"radius", shape.radius}, {"height", shape.height}};
         break;
     case ZoneShape::Kind::Sphere:
         json["kind"] = "sphere";
@@ -56,7 +57,7 @@ class ZoneArea final : public Area {
   public:
     explicit ZoneArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
-        observer.motion = [this] { look(); };
+        observer.motion = [this] { Hub::guarded([this] { look(); }); };
         observer_ = controller_.observers().add(std::move(observer));
     }
     ~ZoneArea() override { controller_.observers().remove(observer_); }
@@ -85,12 +86,13 @@ Json ZoneArea::list() const {
     for (const auto& motion : controller_.core().motions()) {
         for (const WorldZone& zone : rt::lib::zonesOf(controller_.core(), *motion).all()) {
             const rt::SignalId signal = zone.action == WorldZone::Action::Stop ? -1 : io.idOf(zone.output);
-            Json json{{"name", fmt::format("{} {}", zone.stationary ? "wzstationary" : "wztemporary", zone.number)},
-                      {"unit", motion->unitName()},
-                      {"active", zone.enabled},
-                      {"inside", !zone.shape.outside},
-                      {"stops", zone.action == WorldZone::Action::Stop},
-                      {"signal", signal < 0 ? std::string() : io.config(signal).name}};
+            Json json{
+                {"name", fmt::format("{} {}", zone.stationary ? "wzstationary" : "wztemporary", zone.number)},
+                {"unit", motion->unitName()},
+                {"active", zone.enabled},
+                {"inside", !zone.shape.outside},
+                {"stops", zone.action == WorldZone::Action::Stop},
+                {"signal", signal < 0 ? std::string() : io.config(signal).name}};
             addShape(zone.shape, json);
             zones.push_back(std::move(json));
         }

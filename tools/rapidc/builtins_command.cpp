@@ -1,8 +1,8 @@
 // rapidc builtins: everything predefined and whether it is implemented.
 
 #include "runtime/host/command_line.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/pipeline.h"
+#include "tools/rapidc/commands.h"
 
 #include "config/nearest.h"
 #include "frontend/sema/names.h"

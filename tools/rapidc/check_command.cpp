@@ -1,10 +1,10 @@
 // rapidc check: diagnostics, and with --fix the edits that correct them.
 
 #include "runtime/host/command_line.h"
+#include "tools/program/pipeline.h"
 #include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/missing_report.h"
-#include "tools/program/pipeline.h"
 
 #include "frontend/project/neighbours.h"
 #include "frontend/source/heap.h"

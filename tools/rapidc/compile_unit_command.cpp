@@ -2,8 +2,8 @@
 
 #include "runtime/host/command_line.h"
 #include "runtime/host/unit_messages.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/unit_compiler.h"
+#include "tools/rapidc/commands.h"
 
 #include <fmt/format.h>
 #include <iostream>

@@ -1,9 +1,9 @@
 // rapidc rename, rapidc set-value: small changes of modules that leave every other byte alone.
 
 #include "runtime/host/command_line.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/module_store.h"
 #include "tools/program/pipeline.h"
+#include "tools/rapidc/commands.h"
 #include "tools/rapidc/text_diff.h"
 
 #include "config/atomic_file.h"

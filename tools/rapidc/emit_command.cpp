@@ -1,9 +1,9 @@
 // rapidc emit: shows a stage of the compiler.
 
 #include "runtime/host/command_line.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/native_library.h"
 #include "tools/program/pipeline.h"
+#include "tools/rapidc/commands.h"
 
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"

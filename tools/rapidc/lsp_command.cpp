@@ -2,9 +2,9 @@
 
 #include "runtime/host/command_line.h"
 #include "tools/lsp/serve.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/controller_environment.h"
 #include "tools/program/pipeline.h"
+#include "tools/rapidc/commands.h"
 
 #include "runtime/host/run_options.h"
 

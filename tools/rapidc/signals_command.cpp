@@ -1,8 +1,8 @@
 // rapidc signals: the signals that a program uses, as an EIO.cfg to start a configuration from.
 
 #include "runtime/host/command_line.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/pipeline.h"
+#include "tools/rapidc/commands.h"
 
 #include "config/atomic_file.h"
 #include "runtime/host/run_options.h"

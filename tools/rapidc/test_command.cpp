@@ -1,12 +1,12 @@
 // rapidc test: compiles once, runs each unit test in a process and on a controller of its own.
 
 #include "runtime/host/command_line.h"
-#include "tools/rapidc/commands.h"
 #include "tools/program/module_store.h"
 #include "tools/program/native_library.h"
 #include "tools/program/pipeline.h"
 #include "tools/program/run_setup.h"
 #include "tools/program/unit_compiler.h"
+#include "tools/rapidc/commands.h"
 #include "tools/testing/coverage.h"
 #include "tools/testing/discovery.h"
 #include "tools/testing/reports.h"

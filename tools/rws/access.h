@@ -18,7 +18,7 @@ class Access {
            const ControlStations& stations)
         : controller_(controller), mastership_(mastership), users_(users), stations_(stations) {}
 
-    /// RWS 1.0: nobody else may hold the domain. RWS 2.0: the client holds it (edit: Cfg, Rapid; Motion), or it asks for it with
+    /// RWS 1.0: no other client may hold the domain. RWS 2.0: the client holds it (edit: Cfg, Rapid; Motion), or it asks for it with
     /// ?mastership=implicit; with RobotWare 8 its control station has write access. In manual mode changes of data, programs and
     /// configuration need the privilege of /users/rmmp.
     std::optional<Failure> refusal(const Request& request, Domain domain) const;

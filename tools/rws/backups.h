@@ -16,8 +16,8 @@ namespace rapidc::rws {
 class Backups {
   public:
     /// All of them must outlive the routes.
-    Backups(service::VirtualController& controller, const service::ConfigurationStore& configuration, const service::FileVolumes& volumes,
-            Progress& progress)
+    Backups(service::VirtualController& controller, const service::ConfigurationStore& configuration,
+            const service::FileVolumes& volumes, Progress& progress)
         : controller_(controller), configuration_(configuration), volumes_(volumes), progress_(progress) {}
     /// Waits for a backup that is being written.
     ~Backups();
@@ -28,6 +28,8 @@ class Backups {
   private:
     Reply state(const Request& request, const char* type) const;
     Reply create(const Request& request);
+    std::string order(const std::string& folder);
+    void write(const std::string& host, const std::string& progress);
     Reply check(const Request& request) const;
     Reply restore(const Request& request);
     /// The folder on the host that the field `backup` names; a reply when there is none.

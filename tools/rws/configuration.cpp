@@ -62,16 +62,19 @@ Reply Configuration::types(const Request& request) const {
     document.place = Document::Place::Resources;
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i)
-        document.add("cfg-dt-li", all[i]).value("name", all[i]).self = fmt::format("/rw/cfg/{}/{}", domain, escapedSegment(all[i]));
+        document.add("cfg-dt-li", all[i]).value("name", all[i]).self =
+            fmt::format("/rw/cfg/{}/{}", domain, escapedSegment(all[i]));
     return Reply::of(std::move(document));
 }
 
 std::optional<Failure> Configuration::typeIn(const Request& request, std::string& domain) const {
     domain = ConfigurationStore::domainNamed(request.parameter("domain"));
     if (domain.empty())
-        return Failure{ReturnCode::NotFound, fmt::format("there is no configuration domain {}", request.parameter("domain")), 0};
+        return Failure{ReturnCode::NotFound,
+                       fmt::format("there is no configuration domain {}", request.parameter("domain")), 0};
     if (store_.isType(domain, request.parameter("type"))) return std::nullopt;
-    return Failure{ReturnCode::NotFound, fmt::format("domain {} has no type {}", domain, request.parameter("type")), 0};
+    return Failure{ReturnCode::NotFound,
+                   fmt::format("domain {} has no type {}", domain, request.parameter("type")), 0};
 }
 
 Reply Configuration::type(const Request& request) const {
@@ -105,7 +108,10 @@ Reply Configuration::attributes(const Request& request) const {
     const std::vector<Instance> all = store_.instances(domain, type);
     if (!all.empty())
         for (const auto& [name, value] : all.front().values)
-            document.add("cfg-dt-attribute", name).value("name", name).value("type", "string").value("default", "");
+            document.add("cfg-dt-attribute", name)
+                .value("name", name)
+                .value("type", "string")
+                .value("default", "");
     return Reply::of(std::move(document));
 }
 
@@ -160,7 +166,8 @@ Reply Configuration::set(const Request& request) {
     std::string domain;
     if (const auto failure = typeIn(request, domain)) return replyOf(failure);
     const std::string type = request.parameter("type"), name = request.parameter("name");
-    if (!store_.find(domain, type, name)) return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
+    if (!store_.find(domain, type, name))
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
     service::CfgValues values;
     for (const auto& [attribute, value] : request.form.all())
         values.emplace_back(attribute, valueIn(value));
@@ -186,7 +193,8 @@ Reply Configuration::remove(const Request& request) {
     std::string domain;
     if (const auto failure = typeIn(request, domain)) return replyOf(failure);
     const std::string type = request.parameter("type"), name = request.parameter("name");
-    if (!store_.find(domain, type, name)) return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
+    if (!store_.find(domain, type, name))
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
     return replyTo(store_.remove(domain, type, name));
 }
 
@@ -204,7 +212,8 @@ Reply Configuration::load(const Request& request, bool tryOnly) {
     if (!file || !std::filesystem::is_regular_file(file->host, code))
         return Reply::refuse(ReturnCode::NoLoadPath, fmt::format("there is no file {}", path));
     std::string bytes;
-    if (std::filesystem::file_size(file->host, code) > kLargestFile || code || !rapid::config::readFile(file->host, bytes).empty())
+    if (std::filesystem::file_size(file->host, code) > kLargestFile || code ||
+        !rapid::config::readFile(file->host, bytes).empty())
         return Reply::refuse(ReturnCode::TooLarge, fmt::format("{} cannot be read, or is too large", path));
     const service::Refusal refusal = store_.load(bytes, mode, tryOnly);
     if (!refusal.empty()) return Reply::refuse(ReturnCode::BadParameter, refusal);
@@ -221,10 +230,12 @@ Reply Configuration::save(const Request& request) const {
     const auto file = volumePath(controller_, fieldOf(request, "filepath"));
     if (!file) return badParameter("filepath", "/fileservice/$HOME/name.cfg");
     std::string text = store_.text(domain);
-    if (text.empty()) text = fmt::format("{}:CFG_1.0:{}:0::\n#\n", domain, controller_.settings().robotWare == 6 ? 6 : 7);
+    if (text.empty())
+        text = fmt::format("{}:CFG_1.0:{}:0::\n#\n", domain, controller_.settings().robotWare == 6 ? 6 : 7);
     const std::size_t colon = file->rapid.find(':');
     bool isNew = false;
-    const service::FileResult written = volumes_.write(file->rapid.substr(0, colon) + "/" + file->rapid.substr(colon + 1), text, isNew);
+    const service::FileResult written =
+        volumes_.write(file->rapid.substr(0, colon) + "/" + file->rapid.substr(colon + 1), text, isNew);
     return written.isDone() ? Reply::done() : refuseFile(written);
 }
 

@@ -13,8 +13,8 @@ namespace rapidc::rws {
 class Configuration {
   public:
     /// All of them must outlive the routes.
-    Configuration(service::VirtualController& controller, service::ConfigurationStore& store, const service::FileVolumes& volumes,
-                  Progress& progress, const Access& access)
+    Configuration(service::VirtualController& controller, service::ConfigurationStore& store,
+                  const service::FileVolumes& volumes, Progress& progress, const Access& access)
         : controller_(controller), store_(store), volumes_(volumes), progress_(progress), access_(access) {}
     void addTo(Router& router, Subscribables& subscribables);
 

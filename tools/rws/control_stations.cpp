@@ -54,8 +54,8 @@ void ControlStations::addTo(Router& router) {
         router.post(Dialect::V2, std::string("/rw/controlstation") + pattern, only8(std::move(handler)));
     };
     get("", [](const Request&) {
-        return folder(
-            {{"controlstation-register-li", "register"}, {"controlstation-writeaccess-li", "writeaccess"}});
+        return folder({{"controlstation-register-li", "controlstation/register/remote"},
+                       {"controlstation-writeaccess-li", "controlstation/writeaccess/status"}});
     });
     post("/register/remote", [this](const Request& request) { return registerRemote(request); });
     post("/register/local", [](const Request&) {

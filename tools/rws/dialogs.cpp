@@ -176,7 +176,8 @@ class DialogWatch final : public Watch {
   private:
     static Entry event(Shown shown) {
         if (shown.message.size() > kLongestMessage) shown.message.resize(kLongestMessage);
-        return entryOf("rap-ui-ev", "uievent", shown);
+        // events of different dialogs are not merged, because their titles differ
+        return entryOf("rap-ui-ev", shown.stack.empty() ? "uievent" : shown.stack.c_str(), shown);
     }
     void look() {
         const std::optional<Shown> now = shownNow(controller_);

@@ -29,7 +29,7 @@ bool takeValue(std::string_view& rest, std::string& value) {
         const std::size_t end = std::min(rest.find(','), rest.size());
         value = http::trimBlanks(rest.substr(0, end));
         rest.remove_prefix(end);
-        return true;
+        return value.find_first_of(" \t\"") == std::string::npos;
     }
     for (std::size_t i = 1; i < rest.size(); ++i) {
         if (rest[i] == '"') {

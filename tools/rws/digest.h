@@ -43,7 +43,7 @@ class DigestGuard {
 
   private:
     using Fields = std::map<std::string, std::string, std::less<>>;
-    /// What has been used of a nonce.
+    /// The counters and answers of a nonce that have been used.
     struct Used {
         Clock::time_point last;
         uint32_t highest = 0;          ///< counter value

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kSessionCookie = "-http-session-";
 
 std::optional<Method> methodOf(const std::string& text) {
-    if (text == "GET") return Method::Get;
+    if (text == "GET" || text == "HEAD") return Method::Get; // the server leaves out the body
     if (text == "POST") return Method::Post;
     if (text == "PUT") return Method::Put;
     if (text == "DELETE") return Method::Delete;
@@ -111,7 +111,7 @@ http::Decision FrontDoor::decide(Dialect dialect, const http::Head& head) {
     return decision;
 }
 
-/// The response that ends a request before its body; none: it may go on.
+/// The response that ends a request before its body; none: it may continue.
 std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head& head, Visit& visit) {
     const RenderContext plain = contextOf(dialect, head, "/");
     const auto refuse = [&](int status, const char* why) {
@@ -125,12 +125,12 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
     const bool hasAction = std::any_of(visit.query.begin(), visit.query.end(), [](const auto& field) {
         return rapid::config::sameName(field.first, "action");
     });
-    const bool changes = head.method != "GET" || head.asksForSocket() || hasAction || isLogout(visit.path);
+    const bool changes =
+        methodOf(head.method) != Method::Get || head.asksForSocket() || hasAction || isLogout(visit.path);
     if (changes && !http::hasOwnOrigin(head))
         return refuse(403, "pages of other servers may not change anything here");
     if (!methodOf(head.method))
-        return refuse(head.method == "HEAD" || head.method == "OPTIONS" ? 405 : 501,
-                      "the method is not supported");
+        return refuse(head.method == "OPTIONS" ? 405 : 501, "the method is not supported");
     if (auto response = logOn(dialect, head, visit)) return response;
     if (dialect == Dialect::V1) {
         const auto json = std::find_if(visit.query.begin(), visit.query.end(), [](const auto& field) {
@@ -235,7 +235,11 @@ std::optional<http::Response> FrontDoor::complete(Dialect dialect, http::Request
         if (dialect == Dialect::V1 && name == "action") request.action = value;
         request.query.add(name, value);
     }
-    const bool isForm = request.method != Method::Put && !from.body.empty();
+    // PUT brings a form or the bytes of a file.
+    const bool isFile =
+        request.method == Method::Put &&
+        (hasFreeForm(request.path) || request.contentType != "application/x-www-form-urlencoded");
+    const bool isForm = !isFile && !from.body.empty();
     if (isForm) {
         const auto fields = http::parseFields(from.body);
         if (!fields)
@@ -250,14 +254,17 @@ std::optional<http::Response> FrontDoor::complete(Dialect dialect, http::Request
 
 void FrontDoor::execute(const Route& route, Request request, const std::shared_ptr<Visit>& visit,
                         const http::Respond& respond) {
-    auto work = [&route, request = std::move(request), visit, respond] {
+    auto work = [this, &route, request = std::move(request), visit, respond] {
         const RenderContext context{request.dialect, request.base, request.path};
-        Reply reply = callHandler(route.handler, request);
-        if (!visit->form && reply.document) // of a folder: its form matters
-            reply = Reply::refuse(
-                ReturnCode::BadParameter,
-                "Accept must name application/hal+json;v=2.0 or application/xhtml+xml;v=2.0", 406);
-        respond(withHeaders(responseTo(reply, visit->form.value_or(Form::Xhtml), context), visit->cookies));
+        const auto reply = std::make_shared<Reply>(callHandler(route.handler, request));
+        settings_.postToNetwork([context, reply, visit, respond] {
+            if (!visit->form && reply->document) // of a folder: its form matters
+                *reply = Reply::refuse(
+                    ReturnCode::BadParameter,
+                    "Accept must name application/hal+json;v=2.0 or application/xhtml+xml;v=2.0", 406);
+            respond(
+                withHeaders(responseTo(*reply, visit->form.value_or(Form::Xhtml), context), visit->cookies));
+        });
     };
     if (route.where == Where::Controller)
         settings_.postToController(std::move(work));

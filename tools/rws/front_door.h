@@ -2,7 +2,7 @@
 // FrontDoor: what both dialects of Robot Web Services have in common before a handler is called: log on, sessions, limits, forms of requests
 // and replies (serve-contract 11 to 19).
 //
-//     rws::FrontDoor door({.password = "robotics", .postToController = ...}, router);
+//     rws::FrontDoor door({.password = "robotics", .postToController = ..., .postToNetwork = ...}, router);
 //     server.listen({.service = &door.service(rws::Dialect::V1)}, port);
 //     server.every(std::chrono::seconds(1), [&] { door.tick(); });
 //
@@ -23,7 +23,7 @@
 
 namespace rapidc::rws {
 
-/// Who takes requests for event sockets (subscriptions).
+/// Takes requests for event sockets (subscriptions).
 class SocketGate {
   public:
     virtual ~SocketGate() = default;
@@ -36,6 +36,8 @@ struct FrontDoorSettings {
     std::string password;
     /// Executes something on the controller's thread.
     std::function<void(std::function<void()>)> postToController;
+    /// Executes something on the network thread, which renders the replies: the controller has a cycle to keep.
+    std::function<void(std::function<void()>)> postToNetwork;
     /// Of numbers that have ended; called on the network thread.
     std::function<void(uint64_t)> sessionEnded, connectionEnded;
 };

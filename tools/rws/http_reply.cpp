@@ -51,7 +51,7 @@ http::Response responseTo(const Reply& reply, Form form, const RenderContext& co
     }
     if (reply.raw && !reply.failure)
         response.headers.emplace_back("Content-Type", reply.raw->contentType);
-    else if (!response.body.empty())
+    else if (response.status != 204) // clients look at it before the body, which may be empty
         response.headers.emplace_back("Content-Type", contentTypeOf(form, context.dialect));
     if (!reply.location.empty()) response.headers.emplace_back("Location", reply.location);
     response.headers.emplace_back("Cache-Control", "no-cache, no-store");

@@ -25,7 +25,8 @@ double toClient(const robot::Kinematics& kinematics, std::size_t i, double value
 }
 
 /// Joints from two fields: 6 figures (axis 7 is the first of the external ones), or 7. None: they make no sense.
-std::optional<robot::Joints> jointsIn(const robot::Kinematics& kinematics, const std::string& arm, const std::string& external) {
+std::optional<robot::Joints> jointsIn(const robot::Kinematics& kinematics, const std::string& arm,
+                                      const std::string& external) {
     auto figures = numbersIn(arm, 6);
     if (!figures) figures = numbersIn(arm, 7);
     if (!figures) figures = numbersIn(arm, kinematics.jointCount());
@@ -52,12 +53,14 @@ std::optional<motion::Pose> poseIn(const std::string& position, const std::strin
     if (!place || !turn) return std::nullopt;
     const robot::Quat rot{(*turn)[0], (*turn)[1], (*turn)[2], (*turn)[3]};
     if (std::fabs(norm(rot) - 1) > 0.01) return std::nullopt;
-    return motion::Pose{{(*place)[0] * kMillimetres, (*place)[1] * kMillimetres, (*place)[2] * kMillimetres}, robot::normalized(rot)};
+    return motion::Pose{{(*place)[0] * kMillimetres, (*place)[1] * kMillimetres, (*place)[2] * kMillimetres},
+                        robot::normalized(rot)};
 }
 
 /// The tool of a request; none given: tool0.
 std::optional<motion::Pose> toolIn(const Request& request) {
-    const std::string position = fieldOf(request, "tool_frame_position"), orientation = fieldOf(request, "tool_frame_orientation");
+    const std::string position = fieldOf(request, "tool_frame_position"),
+                      orientation = fieldOf(request, "tool_frame_orientation");
     if (position.empty() && orientation.empty()) return motion::Pose();
     return poseIn(position, orientation);
 }
@@ -89,7 +92,7 @@ Reply outOfReach(const std::string& why) {
     return Reply::refuse(ReturnCode::BadParameter, "there are no joints for this pose: " + why);
 }
 
-/// What the calculations from a pose begin with.
+/// Input of the calculations from a pose.
 struct PoseRequest {
     motion::Pose flange; ///< in base
     robot::Joints seed;
@@ -101,9 +104,11 @@ std::optional<Failure> readPose(const Request& request, motion::MotionSystem& sy
     const robot::Kinematics& kinematics = system.kinematics();
     const auto fail = [](const char* what) { return Failure{ReturnCode::BadParameter, what, 0}; };
     const auto tcp = poseIn(fieldOf(request, "curr_position"), fieldOf(request, "curr_orientation"));
-    if (!tcp) return fail("curr_position is [x,y,z] in metres, curr_orientation a unit quaternion [q1,q2,q3,q4]");
+    if (!tcp)
+        return fail("curr_position is [x,y,z] in metres, curr_orientation a unit quaternion [q1,q2,q3,q4]");
     const auto tool = toolIn(request);
-    if (!tool) return fail("tool_frame_position is [x,y,z] in metres, tool_frame_orientation a unit quaternion");
+    if (!tool)
+        return fail("tool_frame_position is [x,y,z] in metres, tool_frame_orientation a unit quaternion");
     const std::string fixed = fieldOf(request, "robot_fixed_object");
     const auto holdsObject = fixed.empty() ? std::optional(false) : flagIn(fixed);
     if (!holdsObject) return fail("robot_fixed_object is TRUE or FALSE");
@@ -116,7 +121,8 @@ std::optional<Failure> readPose(const Request& request, motion::MotionSystem& sy
         out.seed = *seed;
     }
     const auto external = numbersIn(fieldOf(request, "curr_ext_joints"), 6);
-    if (kinematics.hasArmAngle() && external && (*external)[0] < kNotGiven) out.armAngle = (*external)[0] * kDegrees;
+    if (kinematics.hasArmAngle() && external && (*external)[0] < kNotGiven)
+        out.armAngle = (*external)[0] * kDegrees;
     if (const std::string text = fieldOf(request, "robot_configuration"); !text.empty()) {
         const auto figures = numbersIn(text, 4);
         if (!figures) return fail("robot_configuration is [cf1,cf4,cf6,cfx]");
@@ -134,8 +140,10 @@ Handler Kinematics::forRobot(Calculation calculation) const {
     return [this, calculation](const Request& request) {
         const rt::MechanicalUnit* unit = manual_.unit(request.parameter("unit"));
         if (unit == nullptr)
-            return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", request.parameter("unit")));
-        if (!unit->isRobot) return Reply::refuse(ReturnCode::BadParameter, fmt::format("{} has no TCP", unit->name));
+            return Reply::refuse(ReturnCode::NotFound,
+                                 fmt::format("there is no mechanical unit {}", request.parameter("unit")));
+        if (!unit->isRobot)
+            return Reply::refuse(ReturnCode::BadParameter, fmt::format("{} has no TCP", unit->name));
         return (this->*calculation)(request, *unit);
     };
 }
@@ -145,27 +153,36 @@ Reply Kinematics::poseFromJoints(const Request& request, const rt::MechanicalUni
     const auto joints = jointsIn(kinematics, fieldOf(request, "rob_joints"), fieldOf(request, "ext_joints"));
     if (!joints) return badParameter("rob_joints", "[a1,..,a6] in radians");
     const auto tool = toolIn(request);
-    if (!tool) return badParameter("tool_frame_position", "[x,y,z] in metres, and a unit quaternion as tool_frame_orientation");
+    if (!tool)
+        return badParameter("tool_frame_position",
+                            "[x,y,z] in metres, and a unit quaternion as tool_frame_orientation");
     const auto holdsObject = flagIn(fieldOf(request, "robot_fixed_object")).value_or(false);
     const motion::Pose flange = kinematics.forward(*joints);
     const motion::Pose tcp = holdsObject ? inverse(flange) * *tool : flange * *tool;
     const robot::ConfData conf = kinematics.configuration(*joints);
     Document document;
     Entry& entry = document.add("ms-pose", unit.name);
-    entry.value("position-x", shownExactly(tcp.pos.x / kMillimetres)).value("position-y", shownExactly(tcp.pos.y / kMillimetres));
+    entry.value("position-x", shownExactly(tcp.pos.x / kMillimetres))
+        .value("position-y", shownExactly(tcp.pos.y / kMillimetres));
     entry.value("position-z", shownExactly(tcp.pos.z / kMillimetres));
-    entry.value("robtargetorientation-u0", shownExactly(tcp.rot.w)).value("robtargetorientation-u1", shownExactly(tcp.rot.x));
-    entry.value("robtargetorientation-u2", shownExactly(tcp.rot.y)).value("robtargetorientation-u3", shownExactly(tcp.rot.z));
-    entry.value("quarter-rev-j1", fmt::format("{}", conf.cf1)).value("quarter-rev-j4", fmt::format("{}", conf.cf4));
-    entry.value("quarter-rev-j6", fmt::format("{}", conf.cf6)).value("quarter-rev-jx", fmt::format("{}", conf.cfx));
-    if (kinematics.hasArmAngle()) entry.value("arm-angle", shownExactly(kinematics.armAngle(*joints) / kDegrees));
+    entry.value("robtargetorientation-u0", shownExactly(tcp.rot.w))
+        .value("robtargetorientation-u1", shownExactly(tcp.rot.x));
+    entry.value("robtargetorientation-u2", shownExactly(tcp.rot.y))
+        .value("robtargetorientation-u3", shownExactly(tcp.rot.z));
+    entry.value("quarter-rev-j1", fmt::format("{}", conf.cf1))
+        .value("quarter-rev-j4", fmt::format("{}", conf.cf4));
+    entry.value("quarter-rev-j6", fmt::format("{}", conf.cf6))
+        .value("quarter-rev-jx", fmt::format("{}", conf.cfx));
+    if (kinematics.hasArmAngle())
+        entry.value("arm-angle", shownExactly(kinematics.armAngle(*joints) / kDegrees));
     return Reply::of(std::move(document));
 }
 
 Reply Kinematics::jointsFromPose(const Request& request, const rt::MechanicalUnit& unit) const {
     motion::MotionSystem& system = manual_.motionOf(unit).system();
     PoseRequest pose;
-    if (const auto failure = readPose(request, system, pose)) return Reply::refuse(failure->code, failure->message);
+    if (const auto failure = readPose(request, system, pose))
+        return Reply::refuse(failure->code, failure->message);
     const robot::Kinematics& kinematics = system.kinematics();
     auto joints = kinematics.inverseNear(pose.flange, pose.seed, pose.armAngle);
     if (pose.configuration) {
@@ -181,7 +198,8 @@ Reply Kinematics::jointsFromPose(const Request& request, const rt::MechanicalUni
 Reply Kinematics::allSolutions(const Request& request, const rt::MechanicalUnit& unit) const {
     motion::MotionSystem& system = manual_.motionOf(unit).system();
     PoseRequest pose;
-    if (const auto failure = readPose(request, system, pose)) return Reply::refuse(failure->code, failure->message);
+    if (const auto failure = readPose(request, system, pose))
+        return Reply::refuse(failure->code, failure->message);
     const robot::Kinematics& kinematics = system.kinematics();
     robot::IkBranches branches;
     kinematics.inverseAll(pose.flange, pose.seed, branches, pose.armAngle);
@@ -190,26 +208,35 @@ Reply Kinematics::allSolutions(const Request& request, const rt::MechanicalUnit&
         if (!branches.has(i)) continue;
         robot::Joints joints = branches.joints[static_cast<std::size_t>(i)];
         if (!bringWithin(kinematics, joints)) continue;
-        addJoints(kinematics, joints, document.add("ms-robotjoints-li", fmt::format("{}", document.entries.size() + 1)));
+        addJoints(kinematics, joints,
+                  document.add("ms-robotjoints-li", fmt::format("{}", document.entries.size() + 1)));
     }
-    if (document.entries.empty()) return outOfReach(branches.valid == 0 ? "it is out of reach" : "an axis would leave its range");
+    if (document.entries.empty())
+        return outOfReach(branches.valid == 0 ? "it is out of reach" : "an axis would leave its range");
     return Reply::of(std::move(document));
 }
 
 Reply Kinematics::targetFromJoints(const Request& request, const rt::MechanicalUnit& unit) const {
-    const auto arm = numbersIn(fieldOf(request, "curr_joints"), 6), external = numbersIn(fieldOf(request, "curr_ext_joints"), 6);
-    if (!arm || !external) return badParameter("curr_joints and curr_ext_joints", "six figures each, degrees or mm");
+    const auto arm = numbersIn(fieldOf(request, "curr_joints"), 6),
+               external = numbersIn(fieldOf(request, "curr_ext_joints"), 6);
+    if (!arm || !external)
+        return badParameter("curr_joints and curr_ext_joints", "six figures each, degrees or mm");
     const std::string tool = fieldOf(request, "tool"), object = fieldOf(request, "wobj");
     motion::FrameSetup frames;
     const service::Refusal refusal =
         manual_.framesOf(unit, tool.empty() ? "tool0" : tool, object.empty() ? "wobj0" : object, frames);
     if (!refusal.empty()) return Reply::refuse(ReturnCode::BadParameter, refusal);
     motion::MotionSystem& system = manual_.motionOf(unit).system();
-    const motion::RobTarget target = system.toRobTarget(service::jointsFrom(system.kinematics(), *arm, *external), frames);
+    const motion::RobTarget target =
+        system.toRobTarget(service::jointsFrom(system.kinematics(), *arm, *external), frames);
     Document document;
     Entry& entry = document.add("ms-robtarget", unit.name);
-    entry.value("x", shown(target.pose.pos.x)).value("y", shown(target.pose.pos.y)).value("z", shown(target.pose.pos.z));
-    entry.value("q1", shown(target.pose.rot.w)).value("q2", shown(target.pose.rot.x)).value("q3", shown(target.pose.rot.y));
+    entry.value("x", shown(target.pose.pos.x))
+        .value("y", shown(target.pose.pos.y))
+        .value("z", shown(target.pose.pos.z));
+    entry.value("q1", shown(target.pose.rot.w))
+        .value("q2", shown(target.pose.rot.x))
+        .value("q3", shown(target.pose.rot.y));
     entry.value("q4", shown(target.pose.rot.z)).value("cf1", fmt::format("{}", target.conf.cf1));
     entry.value("cf4", fmt::format("{}", target.conf.cf4)).value("cf6", fmt::format("{}", target.conf.cf6));
     entry.value("cfx", fmt::format("{}", target.conf.cfx));
@@ -219,11 +246,13 @@ Reply Kinematics::targetFromJoints(const Request& request, const rt::MechanicalU
 void Kinematics::addTo(Router& router, Subscribables&) {
     const std::string unit = "/rw/motionsystem/mechunits/{unit}";
     addOrder(router, unit, "CalcPoseFromJoints", "pose-from-joints", forRobot(&Kinematics::poseFromJoints));
-    addOrder(router, unit, "JointsFromCartesian", "joints-from-cartesian", forRobot(&Kinematics::jointsFromPose));
+    addOrder(router, unit, "JointsFromCartesian", "joints-from-cartesian",
+             forRobot(&Kinematics::jointsFromPose));
     addOrder(router, unit, "CalcJointsFromPose", "joints-from-pose", forRobot(&Kinematics::jointsFromPose));
     addOrder(router, unit, "AllJointSolutions", "all-joints-solution", forRobot(&Kinematics::allSolutions));
     for (const Dialect dialect : {Dialect::V1, Dialect::V2})
-        router.add(dialect, {Method::Post, unit, "CalcRobTFromJoints", forRobot(&Kinematics::targetFromJoints)});
+        router.add(dialect,
+                   {Method::Post, unit, "CalcRobTFromJoints", forRobot(&Kinematics::targetFromJoints)});
 }
 
 } // namespace rapidc::rws

@@ -26,7 +26,7 @@ class Mastership {
         int id = 0;              ///< of request-with-id; 0: none
         std::string user, address;
     };
-    /// Null: nobody holds the domain.
+    /// Null: the domain is free.
     const Holder* holder(Domain domain) const;
     bool isHeldBy(Domain domain, uint64_t session) const;
     /// False when somebody else holds one of the domains; then nothing has changed.

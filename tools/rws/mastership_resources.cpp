@@ -75,7 +75,7 @@ void MastershipResources::addTo(Router& router, Subscribables& subscribables) {
              const std::vector<Domain> domains = asked(request);
              const bool gone = request.dialect == Dialect::V2 && controller_.settings().robotWare >= 8;
              if (domains.empty() || gone) return Failure{ReturnCode::NotFound, "There is no such mastership"};
-             const std::string name = request.parameter("domain");
+             const std::string& name = request.parameter("domain");
              return watchState(
                  controller_.observers(), {service::Change::Mastership},
                  [this, request, name, domains] {

@@ -18,12 +18,14 @@ namespace {
 using rapid::config::sameName;
 using service::UnitChoice;
 
-constexpr std::array<const char*, 9> kJogModes = {"AxisGroup1", "AxisGroup2",       "Joint",   "Cartesian", "Linear",
-                                                  "Reorient",   "ConfigurationJog", "GoToPos", "Align"};
+constexpr std::array<const char*, 9> kJogModes = {"AxisGroup1",       "AxisGroup2", "Joint",
+                                                  "Cartesian",        "Linear",     "Reorient",
+                                                  "ConfigurationJog", "GoToPos",    "Align"};
 constexpr std::array<const char*, 4> kCoordinates = {"World", "Base", "Tool", "Wobj"};
 
 /// Takes the spelling of the table; false when the text is none of it.
-template <std::size_t Count> bool takeWord(const std::array<const char*, Count>& words, const std::string& text, std::string& out) {
+template <std::size_t Count>
+bool takeWord(const std::array<const char*, Count>& words, const std::string& text, std::string& out) {
     for (const char* word : words) {
         if (!sameName(word, text)) continue;
         out = word;
@@ -37,16 +39,15 @@ struct Increment {
     const char* name;
     double line, turn;
 };
-constexpr std::array<Increment, 3> kIncrements = {{{"Small", 0.05, 0.005}, {"Medium", 1, 0.02}, {"Large", 5, 0.2}}};
+constexpr std::array<Increment, 3> kIncrements = {
+    {{"Small", 0.05, 0.005}, {"Medium", 1, 0.02}, {"Large", 5, 0.2}}};
 
 } // namespace
 
 Handler MechanicalUnits::changing(Reply (MechanicalUnits::*handler)(const Request&, const Unit&)) {
     return access_.guarded(Domain::Motion, [this, handler](const Request& request) {
-        const Unit* unit = manual_.unit(request.parameter("unit"));
-        if (unit == nullptr)
-            return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", request.parameter("unit")));
-        return (this->*handler)(request, *unit);
+        const Unit* unit = unitOf(request);
+        return unit == nullptr ? noUnit(request) : (this->*handler)(request, *unit);
     });
 }
 
@@ -63,7 +64,8 @@ Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
     take("payload", choice.payload);
     take("total-payload", choice.totalPayload);
     if (const std::string mode = request.form.text("jog-mode"); !mode.empty()) {
-        if (!takeWord(kJogModes, mode, choice.jogMode)) return badParameter("jog-mode", "AxisGroup1, AxisGroup2, Cartesian ..");
+        if (!takeWord(kJogModes, mode, choice.jogMode))
+            return badParameter("jog-mode", "AxisGroup1, AxisGroup2, Cartesian ..");
         isGiven = true;
     }
     if (const std::string system = request.form.text("coord-system"); !system.empty()) {
@@ -73,7 +75,8 @@ Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
     }
     if (const std::string mode = request.form.text("mode"); !mode.empty()) {
         if (!sameName(mode, unit.isActive ? "Activated" : "Deactivated"))
-            return Reply::refuse(ReturnCode::Rejected, "a program activates and deactivates units (ActUnit, DeactUnit)");
+            return Reply::refuse(ReturnCode::Rejected,
+                                 "a program activates and deactivates units (ActUnit, DeactUnit)");
         isGiven = true;
     }
     if (!isGiven) return badParameter("tool", "tool, wobj, payload, total-payload, jog-mode or coord-system");
@@ -103,7 +106,8 @@ Reply MechanicalUnits::setPathSupervision(const Request& request, const Unit& un
     const auto on = readBool(mode);
     const auto level = readWhole(text, 0, 300);
     if (mode.empty() && text.empty()) return badParameter("mode", "ON or OFF");
-    if ((!mode.empty() && !on) || (!text.empty() && !level)) return badParameter("mode", "ON or OFF; level from 0 to 300");
+    if ((!mode.empty() && !on) || (!text.empty() && !level))
+        return badParameter("mode", "ON or OFF; level from 0 to 300");
     if (on) choice.pathSupervision = *on;
     if (level) choice.pathSensitivity = static_cast<int>(*level);
     return replyTo(manual_.choose(unit, std::move(choice)));
@@ -111,8 +115,10 @@ Reply MechanicalUnits::setPathSupervision(const Request& request, const Unit& un
 
 Reply MechanicalUnits::setLeadThrough(const Request& request, const Unit& unit) {
     const std::string status = fieldOf(request, "status");
-    if (!sameName(status, "active") && !sameName(status, "inactive")) return badParameter("status", "active or inactive");
-    if (!unit.isRobot) return Reply::refuse(ReturnCode::Rejected, fmt::format("{} is no robot", unit.name));
+    if (!sameName(status, "active") && !sameName(status, "inactive"))
+        return badParameter("status", "active or inactive");
+    if (!unit.isRobot)
+        return Reply::refuse(ReturnCode::Rejected, fmt::format("{} is not a robot", unit.name));
     if (sameName(status, "active") && controller_.isRunning())
         return Reply::refuse(ReturnCode::Rejected, "the program is executing: stop it first");
     UnitChoice choice = manual_.choice(unit);
@@ -125,87 +131,94 @@ Reply MechanicalUnits::teleport(const Request& request, const Unit& unit) {
     auto arm = numbersIn(fieldOf(request, "rob_joint"), 6);
     const auto external = numbersIn(fieldOf(request, "ext_joint"), 6);
     if (!arm) arm = numbersIn(fieldOf(request, "rob_joint"), 7);
-    if (!arm || !external) return badParameter("rob_joint and ext_joint", "[a1,..,a6] and [a,..,f], degrees or mm, 9E9 for no axis");
+    if (!arm || !external)
+        return badParameter("rob_joint and ext_joint",
+                            "[a1,..,a6] and [a,..,f], degrees or mm, 9E9 for no axis");
     return replyTo(manual_.teleport(unit, service::jointsFrom(kinematics, *arm, *external)));
 }
 
 // ---- Jogging -------------------------------------------------------------------------------------------------------
 
 Reply MechanicalUnits::setJogUnit(const Request& request) {
-    std::string name = fieldOf(request, "mechunit-name");
-    if (name.empty()) name = fieldOf(request, "mechunit");
-    const Unit* unit = manual_.unit(name);
-    if (unit == nullptr) return badParameter("mechunit-name", "the name of a mechanical unit");
+    jogUnit_.clear();
+    const Unit* unit = unitOf(request);
+    if (unit == nullptr) return noUnit(request);
     jogUnit_ = unit->name;
     return Reply::done();
 }
 
-/// axis1 .. axis6: per mille of the speed of jogging; with cjogspeed (per cent) signs and shares of it. They last for 0.3 s unless they
-/// are repeated; zeros stop. With inc-mode one step in each direction given.
-Reply MechanicalUnits::jog(const Request& request) {
-    std::string name = fieldOf(request, "mechunit");
-    if (name.empty()) name = jogUnit_;
-    const auto& units = controller_.core().units().all();
-    const Unit* unit = name.empty() && !units.empty() ? units.front().get() : manual_.unit(name);
-    if (unit == nullptr) return badParameter("mechunit", "the name of a mechanical unit");
+/// The directions of a jog mode; axes are shares from -1 to 1.
+void MechanicalUnits::direct(const Unit& unit, const std::string& mode, const std::array<double, 7>& axes,
+                             rt::JogOrder& order) const {
+    if (mode == "Reorient") {
+        const bool isShort = axes[3] == 0 && axes[4] == 0 && axes[5] == 0;
+        order.turn =
+            isShort ? motion::Vec3{axes[0], axes[1], axes[2]} : motion::Vec3{axes[3], axes[4], axes[5]};
+    } else if (mode == "Cartesian" || mode == "Linear") {
+        order.line = {axes[0], axes[1], axes[2]};
+        if (mode == "Cartesian") order.turn = {axes[3], axes[4], axes[5]};
+    } else if (unit.isRobot) {
+        const robot::Kinematics& kinematics = manual_.motionOf(unit).system().kinematics();
+        for (std::size_t i = 0; i < kinematics.jointCount(); ++i)
+            order.joints[i] = axes[static_cast<std::size_t>(kinematics.axisNumber(i) - 1)];
+    } else {
+        for (std::size_t i = 0; i < unit.own.size() && i < axes.size(); ++i)
+            if (unit.own[i].index < order.external.size()) order.external[unit.own[i].index] = axes[i];
+    }
+    const std::string& system = manual_.choice(unit).coordinateSystem;
+    order.frame = sameName(system, "Base")   ? rt::JogFrame::Base
+                  : sameName(system, "Tool") ? rt::JogFrame::Tool
+                  : sameName(system, "Wobj") ? rt::JogFrame::WorkObject
+                                             : rt::JogFrame::World;
+}
+
+/// A reply when the request makes no sense.
+std::optional<Reply> MechanicalUnits::readJog(const Request& request, const Unit& unit,
+                                              rt::JogOrder& order) const {
     std::array<double, 7> axes{};
     bool isGiven = false;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const std::string field = fmt::format("axis{}", i + 1), text = fieldOf(request, field);
-        if (text.empty()) continue;
         const auto value = numberIn(text);
-        if (!value || std::fabs(*value) > 1e6) return badParameter(field, "a number");
-        axes[i] = *value;
-        isGiven = true;
+        if (!text.empty() && (!value || std::fabs(*value) > 1e6)) return badParameter(field, "a number");
+        axes[i] = value.value_or(0);
+        isGiven = isGiven || value;
     }
     if (!isGiven) return badParameter("axis1", "speeds axis1 to axis6");
-    if (const std::string count = fieldOf(request, "ccount"); !count.empty() && !numberIn(count)) return badParameter("ccount", "a number");
-
-    std::string increment = fieldOf(request, "inc-mode"), mode = fieldOf(request, "jogmode");
-    if (mode.empty()) mode = manual_.choice(*unit).jogMode;
-    std::string known;
-    if (!takeWord(kJogModes, mode, known) || known == "GoToPos" || known == "Align" || known == "ConfigurationJog")
+    if (const std::string count = fieldOf(request, "ccount"); !count.empty() && !numberIn(count))
+        return badParameter("ccount", "a number");
+    std::string mode = fieldOf(request, "jogmode"), known;
+    if (mode.empty()) mode = manual_.choice(unit).jogMode;
+    if (!takeWord(kJogModes, mode, known) || known == "GoToPos" || known == "Align" ||
+        known == "ConfigurationJog")
         return badParameter("jogmode", "AxisGroup1, AxisGroup2, Joint, Cartesian, Linear or Reorient");
-    const std::string speedText = fieldOf(request, "cjogspeed");
+    const std::string speedText = fieldOf(request, "cjogspeed"), increment = fieldOf(request, "inc-mode");
     const auto speed = numberIn(speedText);
-    if (!speedText.empty() && (!speed || *speed < 0 || *speed > 100)) return badParameter("cjogspeed", "0 to 100 per cent");
-    rt::JogOrder order;
+    if (!speedText.empty() && (!speed || *speed < 0 || *speed > 100))
+        return badParameter("cjogspeed", "0 to 100 per cent");
     const bool steps = !increment.empty() && !sameName(increment, "None") && !sameName(increment, "User");
+    const auto* step = std::find_if(kIncrements.begin(), kIncrements.end(),
+                                    [&](const Increment& each) { return sameName(each.name, increment); });
+    if (steps && step == kIncrements.end()) return badParameter("inc-mode", "Small, Medium, Large or User");
     for (double& axis : axes) {
         if (steps)
             axis = axis > 0 ? 1 : axis < 0 ? -1 : 0;
         else
             axis = speed ? std::clamp(axis, -1.0, 1.0) * *speed / 100 : std::clamp(axis / 1000, -1.0, 1.0);
     }
-    const bool isLinear = known == "Cartesian" || known == "Linear" || known == "Reorient";
-    if (isLinear && !unit->isRobot) return badParameter("jogmode", "Joint: the unit has no TCP");
-    if (known == "Reorient") {
-        const bool isShort = axes[3] == 0 && axes[4] == 0 && axes[5] == 0;
-        order.turn = isShort ? motion::Vec3{axes[0], axes[1], axes[2]} : motion::Vec3{axes[3], axes[4], axes[5]};
-    } else if (isLinear) {
-        order.line = {axes[0], axes[1], axes[2]};
-        if (known == "Cartesian") order.turn = {axes[3], axes[4], axes[5]};
-    } else if (unit->isRobot) {
-        const robot::Kinematics& kinematics = manual_.motionOf(*unit).system().kinematics();
-        for (std::size_t i = 0; i < kinematics.jointCount(); ++i)
-            order.joints[i] = axes[static_cast<std::size_t>(kinematics.axisNumber(i) - 1)];
-    } else {
-        for (std::size_t i = 0; i < unit->own.size() && i < axes.size(); ++i)
-            if (unit->own[i].index < order.external.size()) order.external[unit->own[i].index] = axes[i];
-    }
-    const std::string system = manual_.choice(*unit).coordinateSystem;
-    order.frame = sameName(system, "Base")   ? rt::JogFrame::Base
-                  : sameName(system, "Tool") ? rt::JogFrame::Tool
-                  : sameName(system, "Wobj") ? rt::JogFrame::WorkObject
-                                             : rt::JogFrame::World;
-    if (steps) {
-        const auto* step = std::find_if(kIncrements.begin(), kIncrements.end(),
-                                        [&](const Increment& each) { return sameName(each.name, increment); });
-        if (step == kIncrements.end()) return badParameter("inc-mode", "Small, Medium, Large or User");
-        const bool isLine = order.line.x != 0 || order.line.y != 0 || order.line.z != 0;
-        order.increment = isLine ? step->line : step->turn;
-    }
-    return replyTo(manual_.jog(*unit, order));
+    direct(unit, known, axes, order);
+    if (order.isLinear() && !unit.isRobot) return badParameter("jogmode", "Joint: the unit has no TCP");
+    const bool isLine = order.line.x != 0 || order.line.y != 0 || order.line.z != 0;
+    if (steps) order.increment = isLine ? step->line : step->turn;
+    return std::nullopt;
+}
+
+/// axis1 .. axis6: per mille of the speed of jogging; with cjogspeed (per cent) signs and shares of it. They last for 0.3 s unless they
+/// are repeated; zeros stop. With inc-mode one step in each direction given.
+Reply MechanicalUnits::jog(const Request& request, const Unit& unit) {
+    rt::JogOrder order;
+    if (auto reply = readJog(request, unit, order)) return std::move(*reply);
+    return replyTo(manual_.jog(unit, order));
 }
 
 void MechanicalUnits::addChanges(Router& router) {
@@ -218,13 +231,16 @@ void MechanicalUnits::addChanges(Router& router) {
     change(unit, "mechunit-position", "position", &MechanicalUnits::teleport);
     change(unit, "set-lead-through", "lead-through", &MechanicalUnits::setLeadThrough);
     change(unit + "/motionsupervision", "set", "mode", &MechanicalUnits::setMotionSupervision);
-    router.post(Dialect::V2, unit + "/motionsupervision/level", changing(&MechanicalUnits::setMotionSupervision));
+    router.post(Dialect::V2, unit + "/motionsupervision/level",
+                changing(&MechanicalUnits::setMotionSupervision));
     change(unit + "/pathsupervision", "set", "mode", &MechanicalUnits::setPathSupervision);
     router.post(Dialect::V2, unit + "/pathsupervision/level", changing(&MechanicalUnits::setPathSupervision));
-    const Handler jogging = access_.guarded(Domain::Motion, [this](const Request& r) { return jog(r); });
-    addOrder(router, all, "jog", "jog", jogging);
+    addOrder(router, all, "jog", "jog", changing(&MechanicalUnits::jog));
+    router.action(all + "/motionsupervision", "set", changing(&MechanicalUnits::setMotionSupervision));
+    router.action(all + "/pathsupervision", "set", changing(&MechanicalUnits::setPathSupervision));
     router.action(all, "set-mechunit", [this](const Request& r) { return setJogUnit(r); });
-    router.add(Dialect::V2, {Method::Post, all + "/set-mechunit", {}, [this](const Request& r) { return setJogUnit(r); }});
+    router.add(Dialect::V2,
+               {Method::Post, all + "/set-mechunit", {}, [this](const Request& r) { return setJogUnit(r); }});
 }
 
 } // namespace rapidc::rws

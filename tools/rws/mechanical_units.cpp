@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace rapidc::rws {
 
@@ -25,14 +26,26 @@ std::string axisText(double value) {
     return motion::isConnected(value) ? shown(value) : "9E+09";
 }
 
+/// Without what rounding leaves of a zero.
+std::string millimetres(double value) {
+    return shown(std::fabs(value) < 1e-9 ? 0 : value);
+}
+
 void addPose(const motion::Pose& pose, Entry& entry) {
-    entry.value("x", shown(pose.pos.x)).value("y", shown(pose.pos.y)).value("z", shown(pose.pos.z));
-    entry.value("q1", shown(pose.rot.w)).value("q2", shown(pose.rot.x)).value("q3", shown(pose.rot.y)).value("q4", shown(pose.rot.z));
+    entry.value("x", millimetres(pose.pos.x))
+        .value("y", millimetres(pose.pos.y))
+        .value("z", millimetres(pose.pos.z));
+    entry.value("q1", shown(pose.rot.w))
+        .value("q2", shown(pose.rot.x))
+        .value("q3", shown(pose.rot.y))
+        .value("q4", shown(pose.rot.z));
 }
 
 const char* typeOf(const rt::MechanicalUnit& unit) {
     if (unit.isRobot) return "TCPRobot";
-    return unit.axes > 1 || unit.own.size() > 1 ? "Robot" : unit.own.empty() && !unit.isConveyor ? "None" : "Single";
+    return unit.axes > 1 || unit.own.size() > 1   ? "Robot"
+           : unit.own.empty() && !unit.isConveyor ? "None"
+                                                  : "Single";
 }
 
 std::size_t axesOf(const rt::MechanicalUnit& unit) {
@@ -41,12 +54,27 @@ std::size_t axesOf(const rt::MechanicalUnit& unit) {
 
 } // namespace
 
+/// The path names the unit, else the field mechunit (RWS 1.0), else it is the first one.
+const rt::MechanicalUnit* MechanicalUnits::unitOf(const Request& request) const {
+    std::string name = request.parameter("unit");
+    for (const char* field : {"mechunit", "mechunit-name"})
+        if (name.empty()) name = fieldOf(request, field);
+    if (name.empty()) name = jogUnit_;
+    const auto& all = controller_.core().units().all();
+    return name.empty() && !all.empty() ? all.front().get() : manual_.unit(name);
+}
+
+Reply MechanicalUnits::noUnit(const Request& request) {
+    const std::string name = request.parameter("unit");
+    if (!name.empty())
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", name));
+    return badParameter("mechunit", "the name of a mechanical unit");
+}
+
 Handler MechanicalUnits::forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&) const) const {
     return [this, handler](const Request& request) {
-        const Unit* unit = manual_.unit(request.parameter("unit"));
-        if (unit == nullptr)
-            return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no mechanical unit {}", request.parameter("unit")));
-        return (this->*handler)(request, *unit);
+        const Unit* unit = unitOf(request);
+        return unit == nullptr ? noUnit(request) : (this->*handler)(request, *unit);
     };
 }
 
@@ -62,7 +90,9 @@ Reply MechanicalUnits::motionSystem(const Request& request) const {
     const auto& units = controller_.core().units().all();
     Entry& entry = document.add("ms-motionsystem", "motionsystem");
     entry.value("change-count", count);
-    entry.value("mechunit-name", !jogUnit_.empty() ? jogUnit_ : units.empty() ? std::string() : units.front()->name);
+    entry.value("mechunit-name", !jogUnit_.empty() ? jogUnit_
+                                 : units.empty()   ? std::string()
+                                                   : units.front()->name);
     entry.links.emplace_back("mechunits", kUnits);
     entry.links.emplace_back("errorstate", "/rw/motionsystem/errorstate");
     return Reply::of(std::move(document));
@@ -75,7 +105,9 @@ Reply MechanicalUnits::changeCount(const Request& request) const {
     if (!count) return badParameter("changecount", "a number");
     const std::string changed = *count != manual_.changeCount() ? "TRUE" : "FALSE";
     Document document;
-    document.add("check-changecount", "changecount").value("change-state", changed).value("changestate", changed);
+    document.add("check-changecount", "changecount")
+        .value("change-state", changed)
+        .value("changestate", changed);
     return Reply::of(std::move(document));
 }
 
@@ -106,7 +138,8 @@ void MechanicalUnits::describeDynamic(const Unit& unit, Entry& entry) const {
     entry.value("tool-name", choice.tool).value("wobj-name", choice.workObject);
     entry.value("payload-name", choice.payload).value("total-payload-name", choice.totalPayload);
     entry.value("status", "Synchronized").value("jog-mode", choice.jogMode);
-    entry.value("mode", unit.isActive ? "Activated" : "Deactivated").value("coord-system", choice.coordinateSystem);
+    entry.value("mode", unit.isActive ? "Activated" : "Deactivated")
+        .value("coord-system", choice.coordinateSystem);
 }
 
 Reply MechanicalUnits::unit(const Request& request, const Unit& unit) const {
@@ -130,15 +163,16 @@ Reply MechanicalUnits::jointTarget(const Request&, const Unit& unit) const {
     return Reply::of(std::move(document));
 }
 
-std::optional<Failure> MechanicalUnits::poseFor(const Request& request, const Unit& unit, motion::RobTarget& target) const {
-    if (!unit.isRobot)
-        return Failure{ReturnCode::BadParameter, fmt::format("{} has no TCP", unit.name), 400};
+std::optional<Failure> MechanicalUnits::poseFor(const Request& request, const Unit& unit,
+                                                motion::RobTarget& target) const {
+    if (!unit.isRobot) return Failure{ReturnCode::BadParameter, fmt::format("{} has no TCP", unit.name), 400};
     const service::UnitChoice& choice = manual_.choice(unit);
     const std::string askedTool = request.query.text("tool"), askedObject = request.query.text("wobj");
     const std::string coordinate = request.query.text("coordinate");
     motion::FrameSetup frames;
-    const service::Refusal refusal = manual_.framesOf(unit, askedTool.empty() ? choice.tool : askedTool,
-                                                      askedObject.empty() ? choice.workObject : askedObject, frames);
+    const service::Refusal refusal =
+        manual_.framesOf(unit, askedTool.empty() ? choice.tool : askedTool,
+                         askedObject.empty() ? choice.workObject : askedObject, frames);
     if (!refusal.empty()) return Failure{ReturnCode::BadParameter, refusal, 400};
     motion::MotionSystem& system = manual_.motionOf(unit).system();
     target = system.currentTarget(frames);
@@ -160,7 +194,8 @@ std::optional<Failure> MechanicalUnits::poseFor(const Request& request, const Un
 
 Reply MechanicalUnits::robTarget(const Request& request, const Unit& unit) const {
     motion::RobTarget target;
-    if (const auto failure = poseFor(request, unit, target)) return Reply::refuse(failure->code, failure->message, failure->status);
+    if (const auto failure = poseFor(request, unit, target))
+        return Reply::refuse(failure->code, failure->message, failure->status);
     Document document;
     Entry& entry = document.add("ms-robtargets", unit.name);
     addPose(target.pose, entry);
@@ -170,13 +205,15 @@ Reply MechanicalUnits::robTarget(const Request& request, const Unit& unit) const
     if (manual_.motionOf(unit).system().kinematics().hasArmAngle()) external[0] = target.armAngle;
     for (const bool withBar : {true, false}) // eax_a and eaxa: clients read either
         for (std::size_t i = 0; i < external.size(); ++i)
-            entry.value(fmt::format("eax{}{}", withBar ? "_" : "", static_cast<char>('a' + i)), axisText(external[i]));
+            entry.value(fmt::format("eax{}{}", withBar ? "_" : "", static_cast<char>('a' + i)),
+                        axisText(external[i]));
     return Reply::of(std::move(document));
 }
 
 Reply MechanicalUnits::cartesian(const Request& request, const Unit& unit) const {
     motion::RobTarget target;
-    if (const auto failure = poseFor(request, unit, target)) return Reply::refuse(failure->code, failure->message, failure->status);
+    if (const auto failure = poseFor(request, unit, target))
+        return Reply::refuse(failure->code, failure->message, failure->status);
     Document document;
     Entry& entry = document.add("ms-mechunit-cartesian", unit.name);
     addPose(target.pose, entry);
@@ -216,11 +253,15 @@ Reply MechanicalUnits::axes(const Request&, const Unit& unit) const {
 Reply MechanicalUnits::axis(const Request& request, const Unit& unit) const {
     const auto number = countIn(request.parameter("axis"));
     if (!number || *number < 1 || *number > axesOf(unit))
-        return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no axis {}", unit.name, request.parameter("axis")));
-    const std::size_t logical = unit.isRobot ? *number : *number <= unit.own.size() ? 7 + unit.own[*number - 1].index : *number;
+        return Reply::refuse(ReturnCode::NotFound,
+                             fmt::format("{} has no axis {}", unit.name, request.parameter("axis")));
+    const std::size_t logical = unit.isRobot                 ? *number
+                                : *number <= unit.own.size() ? 7 + unit.own[*number - 1].index
+                                                             : *number;
     Document document;
     document.add("ms-mechunit-axisstatus", fmt::format("{}", *number)).value("axis-status", "Synchronized");
-    document.add("ms-mechunit-logicalaxis", fmt::format("{}", *number)).value("logical-axis", fmt::format("{}", logical));
+    document.add("ms-mechunit-logicalaxis", fmt::format("{}", *number))
+        .value("logical-axis", fmt::format("{}", logical));
     return Reply::of(std::move(document));
 }
 
@@ -230,7 +271,8 @@ Reply MechanicalUnits::motionSupervision(const Request&, const Unit& unit) const
     const service::UnitChoice& choice = manual_.choice(unit);
     Document document;
     Entry& entry = document.add("ms-motionsupervision", unit.name);
-    entry.value("mode", choice.motionSupervision ? "ON" : "OFF").value("mode-enabled", choice.motionSupervision ? "TRUE" : "FALSE");
+    entry.value("mode", choice.motionSupervision ? "ON" : "OFF")
+        .value("mode-enabled", choice.motionSupervision ? "TRUE" : "FALSE");
     entry.value("level", fmt::format("{}", choice.motionSensitivity));
     return Reply::of(std::move(document));
 }
@@ -239,13 +281,15 @@ Reply MechanicalUnits::pathSupervision(const Request&, const Unit& unit) const {
     const service::UnitChoice& choice = manual_.choice(unit);
     Document document;
     Entry& entry = document.add("ms-pathsupervision", unit.name);
-    entry.value("mode", choice.pathSupervision ? "ON" : "OFF").value("level", fmt::format("{}", choice.pathSensitivity));
+    entry.value("mode", choice.pathSupervision ? "ON" : "OFF")
+        .value("level", fmt::format("{}", choice.pathSensitivity));
     return Reply::of(std::move(document));
 }
 
 Reply MechanicalUnits::leadThrough(const Request&, const Unit& unit) const {
     Document document;
-    document.add("ms-lead-through", unit.name).value("status", manual_.choice(unit).leadThrough ? "Active" : "Inactive");
+    document.add("ms-lead-through", unit.name)
+        .value("status", manual_.choice(unit).leadThrough ? "Active" : "Inactive");
     return Reply::of(std::move(document));
 }
 
@@ -254,7 +298,8 @@ Reply MechanicalUnits::leadThrough(const Request&, const Unit& unit) const {
 void MechanicalUnits::addMotionSystem(Router& router) {
     const std::string all = "/rw/motionsystem";
     router.getBoth(all, [this](const Request& r) { return motionSystem(r); });
-    router.get(Dialect::V2, all + "/checkchangecount/{count}", [this](const Request& r) { return changeCount(r); });
+    router.get(Dialect::V2, all + "/checkchangecount/{count}",
+               [this](const Request& r) { return changeCount(r); });
     router.get(Dialect::V1, all + "/checkchangecount", [this](const Request& r) { return changeCount(r); });
     router.getBoth(all + "/errorstate", [](const Request&) {
         Document document;
@@ -266,9 +311,12 @@ void MechanicalUnits::addMotionSystem(Router& router) {
         document.add("ms-nonmotionexecution", "nonmotionexecution").value("mode", "OFF");
         return Reply::of(std::move(document));
     });
+    router.get(Dialect::V1, all + "/motionsupervision", forUnit(&MechanicalUnits::motionSupervision));
+    router.get(Dialect::V1, all + "/pathsupervision", forUnit(&MechanicalUnits::pathSupervision));
     router.get(Dialect::V2, all + "/collisionprediction", [](const Request&) {
         Document document;
-        document.add("ms-collision-prediction-mode", "collisionprediction").value("collision-prediction-mode-enabled", "false");
+        document.add("ms-collision-prediction-mode", "collisionprediction")
+            .value("collision-prediction-mode-enabled", "false");
         return Reply::of(std::move(document));
     });
 }

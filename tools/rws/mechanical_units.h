@@ -6,6 +6,8 @@
 #include "tools/rws/subscribable.h"
 #include "tools/service/manual_motion.h"
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace rapidc::rws {
@@ -13,13 +15,16 @@ namespace rapidc::rws {
 class MechanicalUnits {
   public:
     /// All of them must outlive the routes.
-    MechanicalUnits(service::VirtualController& controller, service::ManualMotion& manual, const Access& access)
+    MechanicalUnits(service::VirtualController& controller, service::ManualMotion& manual,
+                    const Access& access)
         : controller_(controller), manual_(manual), access_(access) {}
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
     using Unit = rt::MechanicalUnit;
-    /// A handler for the unit in the path: 404 when there is none.
+    const Unit* unitOf(const Request& request) const;
+    static Reply noUnit(const Request& request);
+    /// A handler for the unit that the request names: 404 or 400 when there is none.
     Handler forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&) const) const;
     Handler changing(Reply (MechanicalUnits::*handler)(const Request&, const Unit&));
     void addMotionSystem(Router& router);
@@ -51,7 +56,10 @@ class MechanicalUnits {
     Reply setPathSupervision(const Request& request, const Unit& unit);
     Reply setLeadThrough(const Request& request, const Unit& unit);
     Reply teleport(const Request& request, const Unit& unit);
-    Reply jog(const Request& request);
+    Reply jog(const Request& request, const Unit& unit);
+    std::optional<Reply> readJog(const Request& request, const Unit& unit, rt::JogOrder& order) const;
+    void direct(const Unit& unit, const std::string& mode, const std::array<double, 7>& axes,
+                rt::JogOrder& order) const;
     Reply setJogUnit(const Request& request);
 
     service::VirtualController& controller_;

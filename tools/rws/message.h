@@ -80,7 +80,7 @@ struct Entry {
 
 /// A resource that is described: everything but files.
 struct Document {
-    /// Where RWS 2.0 puts the entries (serve-contract 26).
+    /// The member of RWS 2.0 that holds the entries.
     enum class Place : uint8_t { State, Resources };
     Place place = Place::State;
     std::vector<Entry> entries;

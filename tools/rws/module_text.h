@@ -36,7 +36,7 @@ std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text,
 /// Rows, and characters of the longest one.
 std::pair<std::size_t, std::size_t> sizeOf(std::string_view text);
 
-/// What stands in parentheses after the name of the module: "SYSMODULE,NOSTEPIN"; "" = nothing.
+/// Attributes in parentheses after the name of the module: "SYSMODULE,NOSTEPIN"; "" = nothing.
 std::string attributesOf(std::string_view text, std::string_view module);
 bool isSystemModule(std::string_view text, std::string_view module);
 

@@ -252,7 +252,7 @@ Reply Modules::save(const Request& request, const Asked& asked) {
     if (!path || !std::filesystem::is_directory(path->host, code))
         return Reply::refuse(ReturnCode::NoLoadPath, "There is no folder " + folder);
     const std::optional<VolumePath> file = volumePath(controller_, path->rapid + "/" + name);
-    if (!file) return Reply::refuse(ReturnCode::NoLoadPath, name + " is no file of a volume");
+    if (!file) return Reply::refuse(ReturnCode::NoLoadPath, name + " is not a file of a volume");
     const std::string problem =
         saveModule(controller_.core(), *asked.task, *asked.module, asked.text, file->host);
     return problem.empty() ? Reply::done() : Reply::refuse(ReturnCode::Rejected, problem);

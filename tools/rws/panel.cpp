@@ -50,7 +50,7 @@ constexpr Value kMode{"opmode", "opmode", [](service::VirtualController& control
 constexpr Value kSpeed{"speedratio", "speedratio", [](service::VirtualController& controller) {
                            return std::to_string(controller.panel().speedRatio);
                        }};
-/// A collision stops the program with an event; it leaves no state behind.
+/// A collision stops the program with an event; no state remains.
 constexpr Value kCollision{"coldetstate", "coldetstate",
                            [](service::VirtualController&) { return std::string("INIT"); }};
 
@@ -94,6 +94,8 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     const Handler motors = [this](const Request& request) { return setMotors(request); };
     router.action("/rw/panel/ctrlstate", "setctrlstate", motors);
     router.post(Dialect::V2, "/rw/panel/ctrl-state", motors);
+    router.post(Dialect::V2, "/rw/panel/ctrl-state/keyless-motoron",
+                [this](const Request&) { return replyTo(controller_.setMotors(true)); });
     const Handler speed =
         access_.guarded(Domain::Rapid, [this](const Request& request) { return setSpeedRatio(request); });
     router.action("/rw/panel/speedratio", "setspeedratio", speed);

@@ -6,7 +6,7 @@ namespace rapidc::rws {
 
 namespace {
 
-/// Where changed system parameters are written.
+/// The folder of changed system parameters.
 std::string parameterFolder(service::VirtualController& controller) {
     const std::string folder = controller.folderOf("SYSTEM") + "/SYSPAR";
     std::error_code ignored; // writing fails with a message
@@ -17,12 +17,14 @@ std::string parameterFolder(service::VirtualController& controller) {
 } // namespace
 
 PlantServices::PlantServices(service::VirtualController& controller, const Access& access)
-    : journal_(controller), configuration_(controller, parameterFolder(controller)), manual_(controller), signals_(controller),
-      ioUnits_(controller), mechanicalUnits_(controller, manual_, access), kinematics_(manual_),
-      configurationPages_(controller, configuration_, volumes_, progress_, access), eventLog_(journal_), system_(controller, volumes_),
-      files_(volumes_), backups_(controller, configuration_, volumes_, progress_) {
+    : journal_(controller), configuration_(controller, parameterFolder(controller)), manual_(controller),
+      signals_(controller), ioUnits_(controller), mechanicalUnits_(controller, manual_, access),
+      kinematics_(manual_), configurationPages_(controller, configuration_, volumes_, progress_, access),
+      eventLog_(journal_), system_(controller, volumes_), files_(volumes_),
+      backups_(controller, configuration_, volumes_, progress_) {
     for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"})
-        if (const std::string folder = controller.folderOf(volume); !folder.empty()) (void)volumes_.add(volume, folder);
+        if (const std::string folder = controller.folderOf(volume); !folder.empty())
+            (void)volumes_.add(volume, folder);
 }
 
 void PlantServices::addTo(Router& router, Subscribables& subscribables) {

@@ -29,7 +29,7 @@ class PlantServices {
 
     void addTo(Router& router, Subscribables& subscribables);
 
-    // What the web page shares.
+    // Shared with the web page.
     service::ManualMotion& manualMotion() { return manual_; }
     service::EventJournal& journal() { return journal_; }
     service::ConfigurationStore& configuration() { return configuration_; }

@@ -82,7 +82,7 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
     const auto watch = [this](const char* type, const char* title, Change change, auto read) {
         return [this, type, title, change, read](const Request& request, const Changed& changed,
                                                  Subscription& out) -> std::optional<Failure> {
-            const std::string name = request.parameter("task");
+            const std::string& name = request.parameter("task");
             if (controller_.core().findTask(name) == nullptr)
                 return Failure{ReturnCode::NotFound, "There is no task " + name};
             return watchState(

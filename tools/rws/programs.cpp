@@ -153,7 +153,7 @@ Reply Programs::save(const Request& request) {
     const std::optional<VolumePath> folder = volumePath(controller_, given);
     std::error_code code;
     if (!folder || (fs::create_directories(folder->host, code), !fs::is_directory(folder->host, code)))
-        return Reply::refuse(ReturnCode::NoLoadPath, given + " is no folder of a volume");
+        return Reply::refuse(ReturnCode::NoLoadPath, given + " is not a folder of a volume");
     const char* extension = request.dialect == Dialect::V1 ? ".mod" : ".modx";
     std::vector<std::string> files;
     for (const std::string& name : programModules(*task)) {

@@ -42,7 +42,8 @@ void Progress::addTo(Router& router, Subscribables&) {
         const Work& work = found->second;
         Document document;
         Entry& entry = document.add("progress", work.operation);
-        entry.value("state", work.isReady ? "ready" : "pending").value("code", fmt::format("{}", static_cast<int>(work.code)));
+        entry.value("state", work.isReady ? "ready" : "pending")
+            .value("code", fmt::format("{}", static_cast<int>(work.code)));
         return Reply::of(std::move(document));
     });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Progress: /progress, work that goes on after its request was answered. On the controller's thread only.
+// Progress: /progress, work that continues after its request was answered. On the controller's thread only.
 
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"

@@ -18,7 +18,7 @@ using rapid::config::lowerCase;
 using rapid::config::sameName;
 
 constexpr std::size_t kMostQueues = 100, kMostMessages = 1000;
-constexpr std::size_t kLargestMessage = 64 * 1024; // bytes
+constexpr std::size_t kLargestMessage = 65536; // bytes
 constexpr std::size_t kLongestName = 80;
 constexpr double kLongestWait = 10; // s; a worker waits meanwhile
 
@@ -306,10 +306,11 @@ std::optional<Failure> Queues::subscribe(const Request& request, const Changed& 
     const std::shared_ptr<Queue> queue = find(request.parameter("queue"));
     if (!queue) return Failure{ReturnCode::NotFound, "There is no such queue of a client"};
     const uint64_t number = ++lastListener_;
-    queue->listeners[number] = [changed, name = queue->name](const Message& message) {
+    queue->listeners[number] = [changed, name = queue->name,
+                                count = uint64_t{0}](const Message& message) mutable {
         Entry entry;
         entry.type = "dipc-msg-ev";
-        entry.title = name;
+        entry.title = fmt::format("{}/{}", name, ++count); // messages are never merged
         changed(entry.value("dipc-data", message.data)
                     .value("dipc-userdef", message.userdef)
                     .value("dipc-msgtype", message.type)

@@ -1,5 +1,5 @@
 #pragma once
-// /rw/dipc: message queues of clients, and those of RAPID tasks (RMQ_T_ROB1). What a task sends to a queue of a client is text: "num;5".
+// /rw/dipc: message queues of clients, and those of RAPID tasks (RMQ_T_ROB1). A message of a task to a queue of a client is text: "num;5".
 
 #include "stdlib/impl/queues/message_queue.h"
 #include "tools/rws/router.h"

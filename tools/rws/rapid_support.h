@@ -1,5 +1,5 @@
 #pragma once
-// What the resources around RAPID share: small parts of replies, values of forms, tasks, paths of volumes.
+// Shared by the resources around RAPID: small parts of replies, values of forms, tasks, paths of volumes.
 
 #include "tools/rws/router.h"
 #include "tools/service/virtual_controller.h"

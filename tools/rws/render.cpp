@@ -129,7 +129,8 @@ std::string renderXhtmlFailure(const Failure& failure, const RenderContext& cont
 
 std::string renderEvent(const Entry& entry, std::string_view href, std::string_view base) {
     Entry event = entry;
-    event.self = href;
+    event.self.clear();
+    event.links.emplace_back("self", href); // after the others: some clients read the first anchor
     return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
 }
 

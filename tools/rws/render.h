@@ -11,7 +11,7 @@ namespace rapidc::rws {
 
 enum class Form : uint8_t { Xhtml, Json };
 
-/// What a rendering needs of the request: dialect, base, path.
+/// Parts of the request that rendering needs: dialect, base, path.
 struct RenderContext {
     Dialect dialect = Dialect::V1;
     std::string base; ///< "http://127.0.0.1:8080"

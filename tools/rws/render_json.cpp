@@ -85,12 +85,10 @@ std::string renderJsonFailure(const Failure& failure, const RenderContext& conte
 
 } // namespace
 
-/// Relative addresses of the next page count from the base; clients do not always look at it.
+/// A query alone is for the same path. Relative addresses stay: some clients put the folder of the base in front of them.
 static Document resolved(const Document& document, const RenderContext& context) {
     Document result = document;
     if (!result.next.empty() && result.next.front() == '?') result.next = context.path + result.next;
-    if (!result.next.empty() && result.next.front() != '/')
-        result.next = baseFolder(context.path) + result.next;
     return result;
 }
 

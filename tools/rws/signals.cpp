@@ -22,7 +22,7 @@ Reply fail(const Failure& failure) {
     return Reply::refuse(failure.code, failure.message, failure.status);
 }
 
-/// "A/b/c" as segments behind the path of all signals.
+/// "A/b/c" as segments after the path of all signals.
 std::string hrefOf(const std::string& title) {
     std::string href = "/rw/iosystem/signals";
     for (const std::string& segment : splitPath(title))
@@ -79,10 +79,12 @@ std::optional<Failure> Signals::find(const Request& request, rt::SignalId& signa
     const std::vector<std::string> parts = splitPath(request.parameter("name"));
     signal = parts.empty() ? -1 : io().find(parts.back());
     const bool isBare = parts.size() == 1;
+    // Some clients write Local/DRV_1 before the names of virtual signals.
+    const bool isVirtual = signal >= 0 && parts.size() == 3 && io().config(signal).device.empty();
     const bool isAtDevice = signal >= 0 && parts.size() == 3 &&
                             sameName(io().config(signal).device, parts[1]) &&
                             sameName(io().devices().networkOf(parts[1]), parts[0]);
-    if (signal >= 0 && (isBare || isAtDevice)) return std::nullopt;
+    if (signal >= 0 && (isBare || isVirtual || isAtDevice)) return std::nullopt;
     return Failure{ReturnCode::NoSignal, fmt::format("there is no signal {}", request.parameter("name")), 0};
 }
 

@@ -1,250 +1,387 @@
 #include "tools/rws/subscriptions.h"
 
-#include "tools/http/url.h"
-#include "tools/rws/path_pattern.h"
+#include "config/letter_case.h"
+#include "tools/rws/subscription_parts.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <fmt/format.h>
+#include <set>
+#include <unordered_map>
 
 namespace rapidc::rws {
 
 namespace {
 
-bool isNumber(std::string_view text) {
-    return !text.empty() &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+constexpr std::size_t kMostResources = 1000; ///< in a group
+constexpr std::size_t kMostGroups = 32;      ///< of a session
+constexpr std::size_t kMostMessages = 1000;  ///< of a topic within a period
+constexpr std::size_t kMostImmediate = 64;   ///< resources of priority 2 in a group
+
+Failure bad(std::string message) {
+    return {ReturnCode::BadParameter, std::move(message), 400};
 }
 
-uint64_t numberOf(std::string_view text) {
+/// Some clients escape the path a second time inside the form, some write the whole address.
+std::string plainText(const std::string& text) {
+    std::string plain = http::decodePercent(text).value_or(text);
+    const std::size_t scheme = plain.find("://");
+    if (plain.starts_with('/') || scheme == std::string::npos) return plain;
+    const std::size_t path = plain.find('/', scheme + 3);
+    return path == std::string::npos ? "/" : plain.substr(path);
+}
+
+/// The path of a subscribed text, without its resource.
+std::string_view pathOf(std::string_view text) {
+    return text.substr(0, text.rfind(';'));
+}
+
+uint64_t numberOf(const std::string& text) {
     uint64_t number = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return problem == std::errc() && end == text.data() + text.size() ? number : 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
-/// Some clients encode the path once more, some write the whole address.
-std::string plainPath(std::string text) {
-    if (text.find('/') == std::string::npos || text.find('%') != std::string::npos)
-        if (const auto decoded = http::decodePercent(text)) text = *decoded;
-    if (const std::size_t scheme = text.find("://"); scheme != std::string::npos) {
-        const std::size_t slash = text.find('/', scheme + 3);
-        text = slash == std::string::npos ? "/" : text.substr(slash);
+/// "http://host" -> "ws://host".
+std::string socketBaseOf(const std::string& base) {
+    return "ws" + base.substr(std::min<std::size_t>(4, base.size()));
+}
+
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// The names of the fields that hold paths: "resources" names each of them, or some clients write their count there.
+std::vector<std::string> resourceIds(const Fields& form) {
+    std::vector<std::string> ids;
+    std::set<std::string> known;
+    for (const auto& [name, value] : form.all()) {
+        const bool isName = rapid::config::sameName(name, "resources");
+        const std::string& id = isName ? value : name;
+        if ((isName || isNumber(name)) && known.insert(rapid::config::lowerCase(id)).second)
+            ids.push_back(id);
     }
-    return text;
+    return ids;
 }
 
-std::string pollAddress(const Request& request, uint64_t number) {
-    const std::size_t scheme = request.base.find("://");
-    return fmt::format("{}{}/poll/{}", request.dialect == Dialect::V1 ? "ws" : "wss",
-                       scheme == std::string::npos ? "://" + request.base : request.base.substr(scheme),
-                       number);
+/// Messages are sent one by one; all else is a state whose last value counts.
+bool isMessage(const Entry& entry) {
+    return entry.type == "elog-message-ev" || entry.type == "rap-ui-ev" || entry.type == "dipc-msg-ev";
+}
+
+/// An entry of an event: the anchor of rel=self repeats what was subscribed.
+Entry eventEntry(Entry entry, Dialect dialect, const std::string& text) {
+    // The first anchor is the one that the clients of these two read: the message of the log, the symbol without ";value".
+    entry.links.clear();
+    if (entry.type == "elog-message-ev" && !entry.self.empty())
+        entry.links.emplace_back("message", entry.self);
+    else if (dialect == Dialect::V2 && rapid::config::beginsWithName(text, "/rw/rapid/symbol/") &&
+             text.ends_with(";value"))
+        entry.links.emplace_back("symbol", std::string(pathOf(text)));
+    entry.self = text;
+    return entry;
 }
 
 } // namespace
+
+Subscriptions::Subscriptions(const Subscribables& subscribables, Post post, Post postToNetwork)
+    : subscribables_(subscribables), post_(std::move(post)), postToNetwork_(std::move(postToNetwork)) {}
 
 Subscriptions::~Subscriptions() = default;
 
 void Subscriptions::addTo(Router& router) {
     router.postBoth("/subscription", [this](const Request& request) { return create(request); });
     router.getBoth("/subscription", [this](const Request& request) { return show(request); });
-    router.getBoth("/subscription/{id}", [this](const Request& request) { return show(request); });
-    for (const Method method : {Method::Put, Method::Post})
-        router.addBoth(
-            {method, "/subscription/{id}", "", [this](const Request& request) { return change(request); }});
-    router.addBoth({Method::Delete, "/subscription/{id}", "",
-                    [this](const Request& request) { return remove(request); }});
-    router.addBoth({Method::Delete, "/subscription/{id}/{resource*}", "",
-                    [this](const Request& request) { return removeResource(request); }});
+    router.getBoth("/subscription/{group}", [this](const Request& request) { return show(request); });
+    router.addBoth({Method::Put, "/subscription/{group}", {}, [this](const Request& request) {
+                        return change(request);
+                    }});
+    router.postBoth("/subscription/{group}", [this](const Request& request) { return change(request); });
+    router.addBoth({Method::Delete, "/subscription/{group}", {}, [this](const Request& request) {
+                        return remove(request);
+                    }});
+    router.addBoth({Method::Delete, "/subscription/{group}/{resource*}", {}, [this](const Request& request) {
+                        return removeResource(request);
+                    }});
 }
 
-// ---- What a client wants ---------------------------------------------------------------------------------------------
-
-/// Fields whose names are numbers are resources; NUMBER-p is the priority.
-std::optional<Failure> Subscriptions::read(const Request& request, std::vector<Wanted>& wanted) {
-    Fields form = request.form;
-    if (form.all().empty() && !request.body.empty()) { // of PUT
-        const auto fields = http::parseFields(request.body);
-        if (!fields) return Failure{ReturnCode::BadParameter, "the form is not well formed"};
-        for (const auto& [name, value] : *fields)
-            form.add(name, value);
-    }
-    for (const auto& [name, value] : form.all()) {
-        if (!isNumber(name)) continue;
-        Wanted one{plainPath(value), 1};
-        if (form.has(name + "-p")) {
-            const std::string priority = form.text(name + "-p");
-            if (priority != "0" && priority != "1" && priority != "2")
-                return Failure{ReturnCode::BadParameter,
-                               fmt::format("the priority of {} must be 0, 1 or 2", value)};
-            one.priority = priority.front() - '0';
+std::optional<Failure> Subscriptions::readWishes(const Request& request, std::vector<Wish>& wishes) const {
+    std::unordered_map<std::string, const std::string*> fields; // a form may have thousands
+    for (const auto& [name, value] : request.form.all())
+        fields.emplace(rapid::config::lowerCase(name), &value);
+    const auto valueOf = [&](const std::string& name) {
+        const auto found = fields.find(rapid::config::lowerCase(name));
+        return found == fields.end() ? nullptr : found->second;
+    };
+    for (const std::string& id : resourceIds(request.form)) {
+        const std::string* text = valueOf(id);
+        Wish wish{text ? *text : "", 1};
+        if (wish.text.empty())
+            return bad(fmt::format("The form has no field '{}' with the path of a resource.", id));
+        if (const std::string* priority = valueOf(id + "-p")) {
+            if (*priority != "0" && *priority != "1" && *priority != "2")
+                return bad("The priority is 0, 1 or 2.");
+            wish.priority = (*priority)[0] - '0';
         }
-        wanted.push_back(std::move(one));
+        wishes.push_back(std::move(wish));
+        if (wishes.size() > kMostResources)
+            return bad(fmt::format("A group has at most {} resources.", kMostResources));
     }
-    if (wanted.empty())
-        return Failure{ReturnCode::BadParameter,
-                       "resources to subscribe to are missing: resources=1&1=PATH;RESOURCE&1-p=1"};
+    if (wishes.empty()) return bad("The form names no resources.");
     return std::nullopt;
 }
-
-/// Opens all of them or none.
-std::optional<Failure> Subscriptions::open(Group& group, const Request& request,
-                                           const std::vector<Wanted>& wanted, std::vector<Entry>& initial) {
-    std::vector<std::shared_ptr<Item>> items = group.items;
-    for (const Wanted& one : wanted) {
-        const auto present = std::find_if(items.begin(), items.end(),
-                                          [&](const auto& item) { return item->text == one.text; });
-        if (present != items.end()) {
-            (*present)->priority = one.priority;
-            continue;
-        }
-        auto item = std::make_shared<Item>();
-        item->text = one.text;
-        item->priority = one.priority;
-        item->group = &group;
-        if (auto failure = openItem(request, *item, initial)) return failure;
-        items.push_back(std::move(item));
-    }
-    const auto high =
-        std::count_if(items.begin(), items.end(), [](const auto& item) { return item->priority == 2; });
-    if (static_cast<std::size_t>(high) > kMostHigh)
-        return Failure{ReturnCode::BadParameter, "at most 64 resources of a group may have priority 2"};
-    if (items.size() > kMostResources)
-        return Failure{ReturnCode::TooLarge, fmt::format("a group has at most {} resources", kMostResources)};
-    group.items = std::move(items);
-    return std::nullopt;
-}
-
-std::optional<Failure> Subscriptions::openItem(const Request& request, Item& item,
-                                               std::vector<Entry>& initial) {
-    Request resource;
-    resource.dialect = request.dialect;
-    resource.session = request.session;
-    resource.base = request.base;
-    const Subscribable* subscribable = subscribables_.find(item.text, resource);
-    if (subscribable == nullptr)
-        return Failure{ReturnCode::NotFound, fmt::format("{} cannot be subscribed", item.text)};
-    Subscription subscription;
-    const auto notify = [this, &item](Entry entry) { changed(item, std::move(entry)); };
-    if (auto failure = subscribable->open(resource, notify, subscription)) return failure;
-    item.watch = std::move(subscription.watch);
-    item.queued.clear();
-    for (Entry& entry : subscription.initial) {
-        entry.self = addressOf(entry, item);
-        initial.push_back(std::move(entry));
-    }
-    return std::nullopt;
-}
-
-// ---- Requests --------------------------------------------------------------------------------------------------------
 
 Reply Subscriptions::create(const Request& request) {
-    std::vector<Wanted> wanted;
-    if (auto failure = read(request, wanted)) return Reply::refuse(failure->code, failure->message);
-    const auto own = std::count_if(groups_.begin(), groups_.end(), [&](const auto& item) {
-        return item.second.outlet->session == request.session->number;
+    const auto mine = std::count_if(groups_.begin(), groups_.end(), [&](const auto& each) {
+        return each.second->session == request.session->number;
     });
-    if (static_cast<std::size_t>(own) >= kMostGroups)
-        return Reply::refuse(ReturnCode::Rejected, "too many subscriptions: delete one", 503);
-    const uint64_t number = ++last_;
-    Group& group = groups_[number];
-    group.number = number;
-    group.dialect = request.dialect;
-    group.base = request.base;
-    group.outlet = std::make_shared<Outlet>(request.session->number, request.dialect == Dialect::V1);
+    if (static_cast<std::size_t>(mine) >= kMostGroups)
+        return Reply::refuse(ReturnCode::Rejected,
+                             fmt::format("A session has at most {} groups.", kMostGroups), 400);
+    std::vector<Wish> wishes;
+    if (const auto failure = readWishes(request, wishes))
+        return Reply::refuse(failure->code, failure->message, failure->status);
+    auto group = std::make_unique<Group>();
+    group->id = ++lastGroup_;
+    group->session = request.session->number;
+    group->outlet = std::make_shared<Outlet>();
+    group->outlet->id = group->id;
+    group->outlet->session = group->session;
+    group->outlet->dialect = request.dialect;
     Document document;
-    if (auto failure = open(group, request, wanted, document.entries)) {
-        groups_.erase(number);
+    const auto failure = subscribe(request, *group, wishes, document.entries);
+    if (failure) {
+        for (const auto& [text, resource] : group->resources)
+            disconnect(resource.topic, group->outlet);
         return Reply::refuse(failure->code, failure->message, failure->status);
     }
+    document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
+    document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
     {
         const std::lock_guard lock(mutex_);
-        outlets_[number] = group.outlet;
+        outlets_[group->id] = group->outlet;
     }
-    document.self = pollAddress(request, number);
-    document.links.emplace_back("group", fmt::format("subscription/{}", number));
+    groups_[group->id] = std::move(group);
     Reply reply = Reply::of(std::move(document), 201);
-    reply.location = pollAddress(request, number);
+    reply.location = reply.document->self;
     return reply;
 }
 
-Subscriptions::Group* Subscriptions::groupOf(const Request& request) {
-    const auto found = groups_.find(numberOf(request.parameter("id")));
-    const bool isOwn = found != groups_.end() && found->second.outlet->session == request.session->number;
-    return isOwn ? &found->second : nullptr;
-}
-
-namespace {
-Reply noGroup(const Request& request) {
-    return Reply::refuse(ReturnCode::NotFound,
-                         fmt::format("there is no subscription {}", request.parameter("id")));
-}
-} // namespace
-
 Reply Subscriptions::change(const Request& request) {
     Group* group = groupOf(request);
-    if (group == nullptr) return noGroup(request);
-    std::vector<Wanted> wanted;
-    if (auto failure = read(request, wanted)) return Reply::refuse(failure->code, failure->message);
+    if (!group) return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
+    std::vector<Wish> wishes;
+    auto failure = readWishes(request, wishes);
     Document document;
-    if (auto failure = open(*group, request, wanted, document.entries))
-        return Reply::refuse(failure->code, failure->message, failure->status);
-    document.links.emplace_back("group", fmt::format("subscription/{}", group->number));
-    return Reply::of(std::move(document));
+    if (!failure) failure = subscribe(request, *group, wishes, document.entries);
+    if (failure) return Reply::refuse(failure->code, failure->message, failure->status);
+    document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
+    document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
+    return Reply::of(std::move(document), 200);
+}
+
+std::optional<Failure> Subscriptions::subscribe(const Request& request, Group& group,
+                                                const std::vector<Wish>& wishes,
+                                                std::vector<Entry>& initial) {
+    std::map<std::string, int> priorities;
+    for (const auto& [text, resource] : group.resources)
+        priorities[text] = resource.priority;
+    for (const Wish& wish : wishes)
+        priorities[wish.text] = wish.priority;
+    const auto immediate = std::count_if(priorities.begin(), priorities.end(),
+                                         [](const auto& each) { return each.second == 2; });
+    if (static_cast<std::size_t>(immediate) > kMostImmediate)
+        return bad(fmt::format("At most {} resources of a group have priority 2.", kMostImmediate));
+    if (priorities.size() > kMostResources)
+        return bad(fmt::format("A group has at most {} resources.", kMostResources));
+    // All or nothing: first open, then connect.
+    std::vector<std::shared_ptr<Topic>> topics;
+    std::optional<Failure> failure;
+    for (const Wish& wish : wishes) {
+        std::shared_ptr<Topic> topic;
+        failure = openTopic(request, wish.text, topic, initial);
+        if (failure) break;
+        topics.push_back(std::move(topic));
+    }
+    for (std::size_t i = 0; !failure && i < wishes.size(); ++i) {
+        const auto found = group.resources.find(wishes[i].text);
+        if (found != group.resources.end()) detach(*found->second.topic, group.outlet); // its watch stays
+        connect(*topics[i], group.outlet, wishes[i].priority);
+        group.resources[wishes[i].text] = {topics[i], wishes[i].priority};
+        topics_[{request.dialect, wishes[i].text}] = topics[i];
+    }
+    for (const std::shared_ptr<Topic>& topic : topics)
+        closeIfUnused(topic);
+    return failure;
+}
+
+std::optional<Failure> Subscriptions::openTopic(const Request& request, const std::string& text,
+                                                std::shared_ptr<Topic>& topic, std::vector<Entry>& initial) {
+    Request wanted; // without the form
+    wanted.dialect = request.dialect;
+    wanted.base = request.base;
+    wanted.session = request.session;
+    wanted.connection = request.connection;
+    const Subscribable* subscribable = subscribables_.find(plainText(text), wanted);
+    if (!subscribable) return bad(fmt::format("'{}' cannot be subscribed to.", text));
+    auto& known = topics_[{request.dialect, text}];
+    const bool isNew = !known;
+    if (isNew) {
+        known = std::make_shared<Topic>(++lastTopic_);
+        known->dialect = request.dialect;
+        known->text = text;
+    }
+    Subscription opened;
+    const Changed notify = [this, weak = std::weak_ptr<Topic>(known)](Entry entry) {
+        if (const auto strong = weak.lock()) changed(strong, std::move(entry));
+    };
+    // Another client's watch serves this one too; the second one only asks for the initial values.
+    const auto failure = subscribable->open(wanted, isNew ? notify : Changed([](Entry) {}), opened);
+    if (failure) {
+        if (isNew) topics_.erase({request.dialect, text});
+        Failure answer = *failure;
+        if (answer.status != 404) answer.status = 400;
+        return answer;
+    }
+    if (isNew) known->watch = std::move(opened.watch);
+    for (Entry& entry : opened.initial)
+        initial.push_back(eventEntry(std::move(entry), request.dialect, text));
+    topic = known;
+    return std::nullopt;
+}
+
+void Subscriptions::connect(Topic& topic, const std::shared_ptr<Outlet>& outlet, int priority) {
+    const std::lock_guard lock(mutex_);
+    auto outlets = std::make_shared<std::vector<std::shared_ptr<Outlet>>>(*topic.outlets[priority]);
+    outlets->push_back(outlet);
+    topic.outlets[priority] = std::move(outlets);
+}
+
+void Subscriptions::detach(Topic& topic, const std::shared_ptr<Outlet>& outlet) {
+    const std::lock_guard lock(mutex_);
+    for (Outlets& present : topic.outlets) {
+        auto outlets = std::make_shared<std::vector<std::shared_ptr<Outlet>>>(*present);
+        std::erase(*outlets, outlet);
+        present = std::move(outlets);
+    }
+}
+
+void Subscriptions::disconnect(const std::shared_ptr<Topic>& topic, const std::shared_ptr<Outlet>& outlet) {
+    detach(*topic, outlet);
+    closeIfUnused(topic);
+}
+
+void Subscriptions::closeIfUnused(const std::shared_ptr<Topic>& topic) {
+    {
+        const std::lock_guard lock(mutex_);
+        for (const Outlets& outlets : topic->outlets)
+            if (!outlets->empty()) return;
+    }
+    topic->watch.reset();
+    const auto found = topics_.find({topic->dialect, topic->text});
+    if (found != topics_.end() && found->second == topic) topics_.erase(found);
+}
+
+Subscriptions::Group* Subscriptions::groupOf(const Request& request) {
+    const auto found = groups_.find(numberOf(request.parameter("group")));
+    const bool isMine = found != groups_.end() && found->second->session == request.session->number;
+    return isMine ? found->second.get() : nullptr;
 }
 
 Reply Subscriptions::show(const Request& request) {
     Document document;
-    if (request.parameters.empty()) {
-        for (const auto& [number, group] : groups_) {
-            if (group.outlet->session != request.session->number) continue;
-            Entry& entry = document.add("subscription-li", std::to_string(number));
-            entry.self = fmt::format("/subscription/{}", number);
-            entry.value("resources", std::to_string(group.items.size()));
-        }
-        return Reply::of(std::move(document));
+    for (const auto& [id, group] : groups_) {
+        if (group->session != request.session->number) continue;
+        if (!request.parameter("group").empty() && id != numberOf(request.parameter("group"))) continue;
+        for (const auto& [text, resource] : group->resources)
+            document.add("subscription-li", std::to_string(id))
+                .value("resource", text)
+                .value("priority", std::to_string(resource.priority));
     }
-    const Group* group = groupOf(request);
-    if (group == nullptr) return noGroup(request);
-    for (const auto& item : group->items)
-        document.add("subscription-resource-li", item->text)
-            .value("resource", item->text)
-            .value("priority", std::to_string(item->priority));
+    if (!request.parameter("group").empty() && !groupOf(request))
+        return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
     return Reply::of(std::move(document));
 }
 
 Reply Subscriptions::remove(const Request& request) {
     const Group* group = groupOf(request);
-    if (group == nullptr) return noGroup(request);
-    drop(group->number);
+    if (!group) return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
+    removeGroup(group->id);
     return Reply::done(200);
 }
 
 Reply Subscriptions::removeResource(const Request& request) {
     Group* group = groupOf(request);
-    if (group == nullptr) return noGroup(request);
-    const std::vector<std::string> named = splitPath(request.parameter("resource"));
-    const auto before = group->items.size();
-    std::erase_if(group->items, [&](const auto& item) { return splitPath(item->text) == named; });
-    if (group->items.size() == before)
-        return Reply::refuse(ReturnCode::NotFound, "the resource is not part of the subscription");
+    if (!group) return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
+    const std::string wanted = "/" + request.parameter("resource");
+    const auto find = [&](auto fits) {
+        return std::find_if(group->resources.begin(), group->resources.end(), fits);
+    };
+    auto found =
+        find([&](const auto& each) { return rapid::config::sameName(plainText(each.first), wanted); });
+    if (found == group->resources.end())
+        found = find(
+            [&](const auto& each) { return rapid::config::sameName(pathOf(plainText(each.first)), wanted); });
+    if (found == group->resources.end())
+        return Reply::refuse(ReturnCode::NotFound, "The group does not have this resource.");
+    disconnect(found->second.topic, group->outlet);
+    group->resources.erase(found);
     return Reply::done(200);
 }
 
-void Subscriptions::drop(uint64_t number) {
-    const auto found = groups_.find(number);
+void Subscriptions::removeGroup(uint64_t id) {
+    const auto found = groups_.find(id);
     if (found == groups_.end()) return;
-    found->second.outlet->close();
+    const std::unique_ptr<Group> group = std::move(found->second);
     groups_.erase(found);
-    const std::lock_guard lock(mutex_);
-    outlets_.erase(number);
+    for (const auto& [text, resource] : group->resources)
+        disconnect(resource.topic, group->outlet);
+    {
+        const std::lock_guard lock(mutex_);
+        outlets_.erase(id);
+    }
+    postToNetwork_(
+        [outlet = group->outlet] { outlet->end(http::CloseCode::Normal, "the subscription has ended"); });
 }
 
 void Subscriptions::sessionEnded(uint64_t session) {
     std::vector<uint64_t> ended;
-    for (const auto& [number, group] : groups_)
-        if (group.outlet->session == session) ended.push_back(number);
-    for (const uint64_t number : ended)
-        drop(number);
+    for (const auto& [id, group] : groups_)
+        if (group->session == session) ended.push_back(id);
+    for (const uint64_t id : ended)
+        removeGroup(id);
+}
+
+void Subscriptions::dropLater(uint64_t group) {
+    post_([this, group] { removeGroup(group); });
+}
+
+void Subscriptions::changed(const std::shared_ptr<Topic>& topic, Entry entry) {
+    entry = eventEntry(std::move(entry), topic->dialect, topic->text);
+    bool mustSchedule = false;
+    {
+        const std::lock_guard lock(mutex_);
+        for (int priority = 0; priority < 2; ++priority) {
+            if (topic->outlets[priority]->empty()) continue;
+            std::deque<Entry>& messages = topic->messages[priority];
+            if (messages.size() >= kMostMessages) { // more than anybody reads within a period
+                messages.back() = entry;
+                continue;
+            }
+            if (isMessage(entry) || !topic->isDirty[priority]) dirty_[priority].push_back(topic);
+            topic->isDirty[priority] = true;
+            if (isMessage(entry))
+                messages.push_back(entry);
+            else
+                topic->latest = entry;
+        }
+        if (!topic->outlets[2]->empty()) {
+            now_.push_back({topic, std::move(entry)});
+            mustSchedule = !std::exchange(isScheduled_, true);
+        }
+    }
+    if (mustSchedule) postToNetwork_([this] { sendNow(); });
 }
 
 } // namespace rapidc::rws

@@ -1,41 +1,45 @@
 #pragma once
-// Subscriptions: groups of resources whose changes a client receives over a WebSocket (serve-contract 41 to 45). Groups belong to the
-// controller's thread; sockets come on the network thread.
+// Subscriptions: groups of resources whose changes go to a client over a WebSocket (controller.md 2.4, serve-contract 41 to 45).
 //
-// Priorities: 2 sends every change at once, 1 the last value each 200 ms, 0 each 5 s, by the wall clock.
+// Changes come on the controller's thread, which only stores them. The network thread renders each change once, whatever the number of
+// clients, and sends the bytes. Changes of low and middle priority are merged before they are rendered.
 
 #include "tools/rws/front_door.h"
-#include "tools/rws/outlet.h"
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
 
-#include <atomic>
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace rapidc::rws {
 
 class Subscriptions final : public SocketGate {
   public:
-    /// `subscribables` must be complete and outlive this. `post` executes something on the controller's thread.
-    Subscriptions(const Subscribables& subscribables, std::function<void(std::function<void()>)> post)
-        : subscribables_(subscribables), post_(std::move(post)) {}
+    using Post = std::function<void(std::function<void()>)>;
+
+    /// `post` and `postToNetwork`: execute something on the thread of the controller and of the network. `subscribables` must be
+    /// complete when the first request comes, and must outlive this.
+    Subscriptions(const Subscribables& subscribables, Post post, Post postToNetwork);
     ~Subscriptions() override;
 
+    /// POST /subscription and what belongs to it.
     void addTo(Router& router);
+    /// "http://127.0.0.1:8080", of the events. Before the first request.
+    void setBase(Dialect dialect, std::string base) {
+        bases_[static_cast<std::size_t>(dialect)] = std::move(base);
+    }
     /// On the controller's thread: all groups of the session end.
     void sessionEnded(uint64_t session);
 
-    /// On the network thread, about each 20 ms: lets merged events go.
+    // On the network thread:
+    /// Each 20 ms or so: lets merged events go.
     void tick();
-    /// On the network thread: a socket of a session was opened (+1) or has ended (-1).
+    /// A socket of a session was opened (+1) or has ended (-1).
     void onSockets(std::function<void(uint64_t session, int change)> action) {
         socketsChanged_ = std::move(action);
     }
@@ -43,65 +47,56 @@ class Subscriptions final : public SocketGate {
                                          std::shared_ptr<const Session> session, int& status) override;
 
   private:
-    using Clock = std::chrono::steady_clock;
-    static constexpr std::size_t kMostHigh = 64;        ///< resources of priority 2 in a group
-    static constexpr std::size_t kMostResources = 2000; ///< in a group
-    static constexpr std::size_t kMostGroups = 64;      ///< of a session
-    static constexpr std::size_t kMostQueued = 1000;    ///< events of one resource that are not merged
-
+    struct Outlet;
+    struct Topic;
     struct Group;
-    struct Item {
-        std::string text; ///< as the client wrote it: "/rw/iosystem/signals/do1;state"
-        int priority = 1;
-        Group* group = nullptr;
-        std::unique_ptr<Watch> watch;
-        std::deque<Entry> queued;
-        bool isDirty = false;
-        Clock::time_point sent{};
-    };
-    struct Group {
-        uint64_t number = 0;
-        Dialect dialect = Dialect::V1;
-        std::string base;
-        std::shared_ptr<Outlet> outlet;
-        std::vector<std::shared_ptr<Item>> items;
-    };
-    struct Wanted {
-        std::string text;
-        int priority = 1;
-    };
+    struct Wish;
     class Listener;
+    struct Event {
+        std::shared_ptr<Topic> topic;
+        Entry entry;
+    };
+    using Outlets = std::shared_ptr<const std::vector<std::shared_ptr<Outlet>>>;
 
-    static std::optional<Failure> read(const Request& request, std::vector<Wanted>& wanted);
-    std::optional<Failure> open(Group& group, const Request& request, const std::vector<Wanted>& wanted,
-                                std::vector<Entry>& initial);
-    std::optional<Failure> openItem(const Request& request, Item& item, std::vector<Entry>& initial);
+    // On the controller's thread:
     Reply create(const Request& request);
     Reply change(const Request& request);
-    Reply show(const Request& request);
     Reply remove(const Request& request);
     Reply removeResource(const Request& request);
+    Reply show(const Request& request);
     Group* groupOf(const Request& request);
-    static std::string_view addressOf(const Entry& entry, const Item& item);
-    void changed(Item& item, Entry entry);
-    void send(Item& item, const Entry& entry);
-    void flush();
-    void drop(uint64_t number);
+    std::optional<Failure> readWishes(const Request& request, std::vector<Wish>& wishes) const;
+    std::optional<Failure> subscribe(const Request& request, Group& group, const std::vector<Wish>& wishes,
+                                     std::vector<Entry>& initial);
+    std::optional<Failure> openTopic(const Request& request, const std::string& text,
+                                     std::shared_ptr<Topic>& topic, std::vector<Entry>& initial);
+    void connect(Topic& topic, const std::shared_ptr<Outlet>& outlet, int priority);
+    void detach(Topic& topic, const std::shared_ptr<Outlet>& outlet);
+    void disconnect(const std::shared_ptr<Topic>& topic, const std::shared_ptr<Outlet>& outlet);
+    void removeGroup(uint64_t id);
+    void closeIfUnused(const std::shared_ptr<Topic>& topic);
+    void changed(const std::shared_ptr<Topic>& topic, Entry entry);
+
+    // On the network thread:
+    void sendNow();
+    void sendMerged(int priority);
+    void deliver(const Event& event, const Outlets& outlets);
+    void dropLater(uint64_t group);
 
     const Subscribables& subscribables_;
-    std::function<void(std::function<void()>)> post_;
-    std::function<void(uint64_t, int)> socketsChanged_;
-    std::map<uint64_t, Group> groups_;
-    std::vector<std::weak_ptr<Item>> dirty_;
-    std::atomic<bool> hasDirty_{false};
-    /// The event rendered last, which others may want as well.
-    struct {
-        std::string key;
-        std::shared_ptr<const std::string> frame;
-    } rendered_;
-    uint64_t last_ = 0;
-    std::mutex mutex_; ///< of outlets_
+    const Post post_, postToNetwork_;
+    std::function<void(uint64_t, int)> socketsChanged_ = [](uint64_t, int) {};
+    std::chrono::steady_clock::time_point sent_[2]; ///< when merged events went last, by priority
+    std::string bases_[2];
+    std::map<uint64_t, std::unique_ptr<Group>> groups_;                        ///< controller's thread
+    std::map<std::pair<Dialect, std::string>, std::shared_ptr<Topic>> topics_; ///< controller's thread
+    uint64_t lastGroup_ = 0, lastTopic_ = 0;
+
+    std::mutex mutex_; ///< for what follows, and for parts of Topic
     std::map<uint64_t, std::shared_ptr<Outlet>> outlets_;
+    std::vector<Event> now_; ///< changes of high priority, in order
+    bool isScheduled_ = false;
+    std::vector<std::shared_ptr<Topic>> dirty_[2]; ///< by priority: what changed since the last time
 };
 
 } // namespace rapidc::rws

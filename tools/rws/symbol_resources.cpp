@@ -1,6 +1,7 @@
 #include "tools/rws/symbol_resources.h"
 
 #include "config/letter_case.h"
+#include "tools/rws/path_pattern.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/symbol_text.h"
 
@@ -87,11 +88,13 @@ void SymbolResources::addTo(Router& router, Subscribables& subscribables) {
     router.get(Dialect::V2, newData, value);
     for (const char* action : {"set", "setInitValue", "set-init-value"})
         router.action(oldData, action, set);
-    router.post(Dialect::V2, newData, set);
+    // RWS 2.0, too, says ?action=validate, under a path that data may have
+    router.post(Dialect::V2, newData, [set, validate](const Request& request) {
+        return sameName(request.query.text("action"), "validate") ? validate(request) : set(request);
+    });
     router.get(Dialect::V1, "/rw/rapid/symbol/properties/{symbol*}", properties);
     router.get(Dialect::V2, "/rw/rapid/symbol/{symbol*}/properties", properties);
     router.action("/rw/rapid/symbol/data", "validate", validate);
-    router.add(Dialect::V2, {Method::Post, "/rw/rapid/symbol/RAPID/{task}/data", "validate", validate});
     for (const char* action : {"search-symbols", "search-symbol"})
         router.action("/rw/rapid/symbols", action, search);
     router.post(Dialect::V2, "/rw/rapid/symbols/search", search);
@@ -138,7 +141,9 @@ Reply SymbolResources::setValue(const Request& request) {
 }
 
 Reply SymbolResources::validate(const Request& request) {
-    if (taskOf(controller_, request) == nullptr) return noTask(request);
+    const std::vector<std::string> symbol = splitPath(request.parameter("symbol")); // RAPID, T_ROB1
+    const bool isTask = symbol.size() == 2 && controller_.core().findTask(symbol[1]) != nullptr;
+    if (!isTask && taskOf(controller_, request) == nullptr) return noTask(request);
     std::string given = request.form.text("datatype"), name;
     if (given.empty()) given = request.form.text("dattyp");
     std::vector<int32_t> dims;

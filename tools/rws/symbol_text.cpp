@@ -72,12 +72,15 @@ bool readFlag(const Fields& form, const char* name, bool otherwise, bool& into) 
     return flag.has_value();
 }
 
-/// The patterns of SetDataSearch, for the whole name; anchors are not needed.
+/// The patterns of SetDataSearch, for the whole name. With one anchor only the other end is free.
 bool readPattern(std::string text, SymbolQuery& query) {
     if (text.size() > 80) return false;
-    if (text.starts_with('^')) text.erase(0, 1);
-    if (text.ends_with('$')) text.pop_back();
+    const bool fromStart = text.starts_with('^');
+    if (fromStart) text.erase(0, 1);
+    const bool toEnd = text.ends_with('$');
+    if (toEnd) text.pop_back();
     if (text.empty()) return true;
+    if (fromStart != toEnd) text = fromStart ? "(" + text + ").*" : ".*(" + text + ")";
     auto pattern = std::make_shared<rt::lib::NamePattern>();
     if (!pattern->parse(text)) return false;
     query.matches = [pattern](const std::string& name) { return pattern->matches(name); };

@@ -1,6 +1,7 @@
 #include "tools/rws/system.h"
 
 #include "config/letter_case.h"
+#include "tools/http/url.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 #include "tools/service/event_journal.h"
@@ -34,6 +35,7 @@ System::System(service::VirtualController& controller, const service::FileVolume
     observer.changed = [this](service::Change change, const rt::Task*) {
         if (change != service::Change::Generation) return;
         ++restarts_;
+        facts_.reset();
         rt::Controller& core = controller_.core();
         core.setCalendarSeconds(core.calendarSeconds() + clockOffset_);
     };
@@ -44,17 +46,26 @@ System::~System() {
     controller_.observers().remove(token_);
 }
 
+const service::SystemFacts& System::facts() const {
+    if (!facts_) facts_ = service::systemFacts(controller_);
+    return *facts_;
+}
+
 // ---- /rw/system ----------------------------------------------------------------------------------------------------
 
 Reply System::system(const Request& request) const {
     const bool isFirst = request.dialect == Dialect::V1;
-    const service::RobotWareVersion version = service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
-    const service::SystemFacts facts = service::systemFacts(controller_);
+    const service::RobotWareVersion version =
+        service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
+    const service::SystemFacts& facts = this->facts();
     Document document;
     Entry& entry = document.add(isFirst ? "sys-system-li" : "sys-system", "system");
     entry.value("major", fmt::format("{}", version.major)).value("minor", fmt::format("{}", version.minor));
-    entry.value("build", fmt::format("{}", version.build)).value("revision", fmt::format("{}", version.revision));
-    entry.value("title", "RobotWare").value("type", "RobotWare").value("description", "Virtual controller of rapidc");
+    entry.value("build", fmt::format("{}", version.build))
+        .value("revision", fmt::format("{}", version.revision));
+    entry.value("title", "RobotWare")
+        .value("type", "RobotWare")
+        .value("description", "Virtual controller of rapidc");
     entry.value("name", facts.name).value("rwversion", version.version).value("rwversionname", version.name);
     entry.value("sysid", facts.id).value("starttm", service::calendarText(facts.startSeconds));
     if (isFirst) {
@@ -77,14 +88,15 @@ Reply System::system(const Request& request) const {
 
 Reply System::options(const Request&) const {
     Document document;
-    for (const std::string& option : service::systemFacts(controller_).options)
+    for (const std::string& option : facts().options)
         document.add("sys-option-li", option).value("option", option);
     return Reply::of(std::move(document));
 }
 
 Reply System::products(const Request& request) const {
     const bool isFirst = request.dialect == Dialect::V1;
-    const service::RobotWareVersion version = service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
+    const service::RobotWareVersion version =
+        service::robotWareVersion(isFirst ? 6 : controller_.settings().robotWare);
     Document document;
     Entry& entry = document.add("sys-product-li", "RobotWare");
     entry.value("product", "RobotWare").value("version-name", version.name).value("version", version.version);
@@ -98,7 +110,9 @@ Reply System::returnCode(const Request& request) const {
     auto value = static_cast<int64_t>(*number);
     if (value > INT32_MAX) value -= int64_t{1} << 32; // some clients have it without its sign
     const auto found = describe(static_cast<int>(value));
-    if (!found) return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no return code {}", request.query.text("code")));
+    if (!found)
+        return Reply::refuse(ReturnCode::NotFound,
+                             fmt::format("there is no return code {}", request.query.text("code")));
     Document document;
     Entry& entry = document.add("err-desc", fmt::format("{}", value));
     entry.value("name", found->symbol).value("code", fmt::format("{}", value));
@@ -110,9 +124,11 @@ void System::addSystem(Router& router) {
     router.getBoth("/rw/system", [this](const Request& r) { return system(r); });
     router.getBoth("/rw/system/options", [this](const Request& r) { return options(r); });
     router.getBoth("/rw/system/products", [this](const Request& r) { return products(r); });
-    router.getBoth("/rw/system/license", [](const Request&) { return one("sys-license-info", "license", "license", "virtual controller"); });
+    router.getBoth("/rw/system/license", [](const Request&) {
+        return one("sys-license-info", "license", "license", "virtual controller");
+    });
     router.getBoth("/rw/system/robottype", [this](const Request&) {
-        return one("sys-robottype", "robottype", "robot-type", service::systemFacts(controller_).robotType);
+        return one("sys-robottype", "robottype", "robot-type", facts().robotType);
     });
     router.getBoth("/rw/retcode", [this](const Request& r) { return returnCode(r); });
 }
@@ -120,31 +136,43 @@ void System::addSystem(Router& router) {
 // ---- /ctrl ---------------------------------------------------------------------------------------------------------
 
 Reply System::identity(const Request&, Document::Place place) const {
-    const service::SystemFacts facts = service::systemFacts(controller_);
+    const service::SystemFacts& facts = this->facts();
     Document document;
     document.place = place;
     Entry& entry = document.add("ctrl-identity-info", "identity");
     entry.self = "/ctrl/identity";
-    entry.value("ctrl-name", facts.name).value("ctrl-id", facts.name).value("ctrl-type", "Virtual Controller");
+    entry.value("ctrl-name", facts.name)
+        .value("ctrl-id", facts.name)
+        .value("ctrl-type", "Virtual Controller");
     entry.value("ctrl-mac", "00-00-00-00-00-00").value("ctrl-level", "Virtual");
     return Reply::of(std::move(document));
 }
 
 Reply System::clock(const Request&) const {
-    return one("ctrl-clock-info", "clock", "datetime", service::calendarText(controller_.core().calendarSeconds()));
+    return one("ctrl-clock-info", "clock", "datetime",
+               service::calendarText(controller_.core().calendarSeconds()));
 }
 
 Reply System::setClock(const Request& request) {
     int64_t parts[6] = {};
+    const auto form = http::parseFields(request.body); // bodies of PUT are not read as forms
+    const auto textOf = [&](const char* name) {
+        if (form)
+            for (const auto& [field, value] : *form)
+                if (sameName(field, name)) return value;
+        return fieldOf(request, name);
+    };
     struct Part {
         const char* field;
         int64_t least, most;
     };
-    constexpr Part kParts[6] = {{"sys-clock-year", 1970, 2100}, {"sys-clock-month", 1, 12}, {"sys-clock-day", 1, 31},
-                                {"sys-clock-hour", 0, 23},      {"sys-clock-min", 0, 59},   {"sys-clock-sec", 0, 59}};
+    constexpr Part kParts[6] = {{"sys-clock-year", 1970, 2100}, {"sys-clock-month", 1, 12},
+                                {"sys-clock-day", 1, 31},       {"sys-clock-hour", 0, 23},
+                                {"sys-clock-min", 0, 59},       {"sys-clock-sec", 0, 59}};
     for (std::size_t i = 0; i < 6; ++i) {
-        const auto value = readWhole(fieldOf(request, kParts[i].field), kParts[i].least, kParts[i].most);
-        if (!value) return badParameter(kParts[i].field, fmt::format("{} to {}", kParts[i].least, kParts[i].most));
+        const auto value = readWhole(textOf(kParts[i].field), kParts[i].least, kParts[i].most);
+        if (!value)
+            return badParameter(kParts[i].field, fmt::format("{} to {}", kParts[i].least, kParts[i].most));
         parts[i] = *value;
     }
     std::tm time{};
@@ -159,6 +187,7 @@ Reply System::setClock(const Request& request) {
     rt::Controller& core = controller_.core();
     clockOffset_ += seconds - core.calendarSeconds();
     core.setCalendarSeconds(seconds);
+    facts_.reset();
     return Reply::done();
 }
 
@@ -171,27 +200,31 @@ Reply System::restart(const Request& request) {
     return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
 }
 
-/// `_value`: a path behind /fileservice/.
+/// `_value`: a path after /fileservice/.
 Reply System::environment(const Request& request) const {
     const std::string name = request.parameter("name");
     if (!name.starts_with('$') || !volumes_.has(name))
-        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no resource or environment variable {}", name));
+        return Reply::refuse(ReturnCode::NotFound,
+                             fmt::format("there is no resource or environment variable {}", name));
     const std::string title = "$" + rapid::config::upperCase(name.substr(1));
     return one("ctrl-env", title.c_str(), "_value", title);
 }
 
 void System::addControl(Router& router) {
     router.getBoth("/ctrl", [this](const Request& r) { return identity(r, Document::Place::Resources); });
-    router.getBoth("/ctrl/identity", [this](const Request& r) { return identity(r, Document::Place::State); });
+    router.getBoth("/ctrl/identity",
+                   [this](const Request& r) { return identity(r, Document::Place::State); });
     router.getBoth("/ctrl/clock", [this](const Request& r) { return clock(r); });
     router.addBoth({Method::Put, "/ctrl/clock", {}, [this](const Request& r) { return setClock(r); }});
-    router.getBoth("/ctrl/clock/timezone", [](const Request&) { return one("ctrl-timezone", "timezone", "timezone", "UTC"); });
+    router.getBoth("/ctrl/clock/timezone",
+                   [](const Request&) { return one("ctrl-timezone", "timezone", "timezone", "UTC"); });
     router.getBoth("/ctrl/{name}", [this](const Request& r) { return environment(r); });
     router.getBoth("/ctrl/options", [](const Request&) { return Reply::of(Document()); });
     router.post(Dialect::V2, "/ctrl/restart", [this](const Request& r) { return restart(r); });
     router.action("/ctrl", "restart", [this](const Request& r) { return restart(r); });
-    router.get(Dialect::V2, "/ctrl/restart/restartcount",
-               [this](const Request&) { return one("ctrl-restart-count", "restartcount", "restart-count", fmt::format("{}", restarts_)); });
+    router.get(Dialect::V2, "/ctrl/restart/restartcount", [this](const Request&) {
+        return one("ctrl-restart-count", "restartcount", "restart-count", fmt::format("{}", restarts_));
+    });
 }
 
 // ---- Virtual time --------------------------------------------------------------------------------------------------
@@ -206,7 +239,8 @@ Reply System::setTimeState(const Request& request) {
 
 Reply System::setTimeSpeed(const Request& request) {
     const auto speed = numberIn(fieldOf(request, "vtcurrspeed"));
-    if (!speed || *speed < 0 || *speed > kMostSpeed) return badParameter("vtcurrspeed", "per cent of the wall clock's pace; 0: as fast as possible");
+    if (!speed || *speed < 0 || *speed > kMostSpeed)
+        return badParameter("vtcurrspeed", "per cent of the wall clock's pace; 0: as fast as possible");
     controller_.setPace(static_cast<int>(std::lround(*speed)));
     return Reply::done();
 }
@@ -224,12 +258,14 @@ void System::addVirtualTime(Router& router) {
         return one("ctrl-vttime", "vttime", "vtcounter", fmt::format("{}", milliseconds));
     });
     router.getBoth(base + "/vtstate", [this](const Request&) {
-        return one("ctrl-vtstate", "vtstate", "vtcurrstate", controller_.isTimeRunning() ? "running" : "stopped");
+        return one("ctrl-vtstate", "vtstate", "vtcurrstate",
+                   controller_.isTimeRunning() ? "running" : "stopped");
     });
     router.getBoth(base + "/vtspeed", [this](const Request&) {
         return one("ctrl-vtspeed", "vtspeed", "vtcurrspeed", fmt::format("{}", controller_.pace()));
     });
-    router.getBoth(base + "/vttimeslice", [](const Request&) { return one("ctrl-vttimeslice", "vttimeslice", "vttimeslice", "4"); });
+    router.getBoth(base + "/vttimeslice",
+                   [](const Request&) { return one("ctrl-vttimeslice", "vttimeslice", "vttimeslice", "4"); });
     const auto state = [this](bool running) {
         return [this, running](const Request&) {
             controller_.setTimeRunning(running);

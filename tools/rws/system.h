@@ -4,6 +4,7 @@
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
 #include "tools/service/file_volumes.h"
+#include "tools/service/system_facts.h"
 #include "tools/service/virtual_controller.h"
 
 #include <optional>
@@ -18,6 +19,8 @@ class System {
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
+    /// Clients ask often: found out once for each generation of the controller.
+    const service::SystemFacts& facts() const;
     void addSystem(Router& router);
     void addControl(Router& router);
     void addVirtualTime(Router& router);
@@ -38,6 +41,7 @@ class System {
     service::Observers::Token token_;
     int64_t clockOffset_ = 0; ///< s by which clients have moved the clock; a restart keeps it
     uint64_t restarts_ = 0;
+    mutable std::optional<service::SystemFacts> facts_;
 };
 
 } // namespace rapidc::rws

@@ -81,7 +81,7 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
 }
 
 void Tasks::addCounters(Router& router) {
-    router.get(Dialect::V2, std::string(kTask) + "/structural-changecount", [this](const Request& request) {
+    router.getBoth(std::string(kTask) + "/structural-changecount", [this](const Request& request) {
         const rt::Task* task = taskOf(controller_, request);
         if (task == nullptr) return noTask(request);
         const std::string count = std::to_string(controller_.structuralChanges(*task));
@@ -120,7 +120,7 @@ void Tasks::subscribe(Subscribables& subscribables) {
              {},
              [this, resource, type, changes, fill](const Request& request, const Changed& changed,
                                                    Subscription& out) -> std::optional<Failure> {
-                 const std::string name = request.parameter("task");
+                 const std::string& name = request.parameter("task");
                  if (!name.empty() && controller_.core().findTask(name) == nullptr)
                      return Failure{ReturnCode::NotFound, "There is no task " + name};
                  return watchState(
@@ -298,9 +298,18 @@ Reply Tasks::activationRecord(const Request& request) {
     const std::string asked = request.query.text("stackframe");
     const auto number = readWhole(asked.empty() ? "0" : asked, 0, INT32_MAX);
     if (!number) return badParameter("stackframe", "a number from 0");
-    if (static_cast<std::size_t>(*number) >= frames.size())
+    rt::SourcePlace at;
+    const auto pointer = service::programPointer(controller_, *task);
+    if (static_cast<std::size_t>(*number) < frames.size()) {
+        at = frames[static_cast<std::size_t>(*number)].place;
+    } else if (*number == 0 && pointer) { // before the first instruction
+        at.module = pointer->module;
+        at.routine = pointer->routine;
+        at.line = pointer->beginLine;
+        at.column = pointer->beginColumn;
+    } else {
         return Reply::refuse(ReturnCode::BadParameter, "No such stack frame");
-    const rt::SourcePlace& at = frames[static_cast<std::size_t>(*number)].place;
+    }
     Document document;
     document.add("rap-activation-record", std::to_string(*number))
         .value("modulename", at.module)

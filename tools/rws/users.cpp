@@ -109,6 +109,10 @@ void Users::addGrants(Router& router) {
         document.add("uas-password-change-allow", "password-change-allow").value("status", "false");
         return Reply::of(std::move(document));
     });
+    router.post(Dialect::V2, "/uas/user/password", [](const Request&) {
+        return Reply::refuse(ReturnCode::Rejected, "Passwords are options of rapidc serve", 403);
+    });
+    router.get(Dialect::V2, "/uas/ldap", [](const Request&) { return Reply::of(Document()); });
     router.get(Dialect::V2, "/uas/users/{user}/roles", [](const Request& request) {
         if (!rapid::config::sameName(request.parameter("user"), request.session->user))
             return Reply::refuse(ReturnCode::NotFound, "There is no such user");

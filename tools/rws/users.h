@@ -18,7 +18,7 @@ class Users {
     void sessionEnded(uint64_t session);
 
   private:
-    /// What a client has said about its user (POST /users).
+    /// Data of a user as its client gave them (POST /users).
     struct Person {
         std::string alias, application, location, locale = "remote";
     };

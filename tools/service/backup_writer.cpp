@@ -24,6 +24,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 namespace rapidc::service {
@@ -36,34 +37,69 @@ using rapid::SourceFile;
 using rapid::config::sameName;
 
 /// The present values of the persistents that the modules of a file declare.
-std::vector<rapid::edit::DataValue> valuesOf(const rt::ProgramTables& tables, int32_t task, const std::vector<std::string>& modules) {
+std::vector<rapid::edit::DataValue> valuesOf(const rt::ProgramTables& tables, int32_t task,
+                                             const std::vector<std::string>& modules) {
     std::vector<rapid::edit::DataValue> values;
     for (const rt::GlobalDesc* data : tables.globals()) {
         const bool isWanted = data->kind == rt::kGlobalPersistent && tables.isDeclaredIn(*data, task) &&
-                              std::any_of(modules.begin(), modules.end(), [&](const std::string& name) { return sameName(name, data->module); });
+                              std::any_of(modules.begin(), modules.end(), [&](const std::string& name) {
+                                  return sameName(name, data->module);
+                              });
         std::string text;
-        if (isWanted && rt::valueToSource(data->address, *data->type, text)) values.push_back({data->module, data->name, std::move(text)});
+        if (isWanted && rt::valueToSource(data->address, *data->type, text))
+            values.push_back({data->module, data->name, std::move(text)});
     }
     return values;
 }
 
-/// Modules of the backup that was loaded which nobody can read: they are kept as they are.
-std::vector<std::string> opaqueFilesOf(const VirtualController& controller, const std::string& task) {
-    std::vector<std::string> paths;
+/// The tasks that the backup lists from which the controller was started, each with its modules on the host.
+struct EarlierTask {
+    project::ListedTask listed;
+    std::vector<std::string> files;
+};
+std::vector<EarlierTask> earlierTasks(const VirtualController& controller) {
+    std::vector<EarlierTask> tasks;
     for (const std::string& input : controller.settings().inputs.paths) {
         std::string bytes;
-        const fs::path info = project::isFolder(input) ? project::findPath(input, "BACKINFO/backinfo.txt") : fs::path();
+        const fs::path info =
+            project::isFolder(input) ? project::findPath(input, "BACKINFO/backinfo.txt") : fs::path();
         if (info.empty() || !rapid::config::readFile(info.string(), bytes).empty()) continue;
-        for (const project::ListedTask& listed : project::readBackupInfo(bytes).tasks) {
-            if (!sameName(listed.name, task)) continue;
+        for (project::ListedTask& listed : project::readBackupInfo(bytes).tasks) {
+            EarlierTask& task = tasks.emplace_back(EarlierTask{std::move(listed), {}});
             for (const char* part : {"PROGMOD", "SYSMOD"})
-                for (const fs::path& path : project::entries(project::findPath(input, "RAPID/" + listed.folder + "/" + part)))
-                    if (project::isModule(path) && rapid::config::readFile(path.string(), bytes).empty() &&
-                        SourceFile(path.string(), bytes).isEncrypted())
-                        paths.push_back(path.string());
+                for (const fs::path& path :
+                     project::entries(project::findPath(input, "RAPID/" + task.listed.folder + "/" + part)))
+                    if (project::isModule(path) && !project::isFolder(path))
+                        task.files.push_back(path.string());
         }
     }
-    return paths;
+    return tasks;
+}
+
+bool isEncrypted(const std::string& path) {
+    std::string bytes;
+    return rapid::config::readFile(path, bytes).empty() && SourceFile(path, bytes).isEncrypted();
+}
+
+/// Encrypted modules are kept as they are, and so are tasks that the controller could not take.
+void keepEarlier(const VirtualController& controller, BackupContent& content) {
+    for (const EarlierTask& earlier : earlierTasks(controller)) {
+        const auto same =
+            std::find_if(content.tasks.begin(), content.tasks.end(), [&](const BackupContent::Task& task) {
+                return sameName(task.name, earlier.listed.name);
+            });
+        if (same != content.tasks.end()) {
+            same->program = earlier.listed.program;
+            std::copy_if(earlier.files.begin(), earlier.files.end(), std::back_inserter(same->opaqueFiles),
+                         isEncrypted);
+        } else if (earlier.listed.folder != "TASK0") {
+            BackupContent::Task& kept = content.tasks.emplace_back();
+            kept.name = earlier.listed.name;
+            kept.program = earlier.listed.program;
+            kept.isConfigured = true; // as far as it was
+            kept.opaqueFiles = earlier.files;
+        }
+    }
 }
 
 class Taker {
@@ -77,7 +113,6 @@ class Taker {
         const rt::ProgramDesc& program = controller_.core().program();
         taken.type = index < program.taskCount ? program.tasks[index].type : "NORMAL";
         taken.isMotionTask = task.isMotionTask();
-        taken.opaqueFiles = opaqueFilesOf(controller_, taken.name);
         takeCompiled(index, taken);
         takeLoaded(index, taken);
     }
@@ -98,8 +133,11 @@ class Taker {
             const std::vector<std::string>& names = sources[index].modules[i];
             const std::shared_ptr<const SourceFile>& source = sources[index].input.files[i];
             if (names.empty() || !isInMemory(index, names)) continue;
-            BackupContent::Module module{source, valuesOf(controller_.core().tables(), static_cast<int32_t>(index), names), names.front()};
-            const bool isShared = std::find(sharedFiles.begin(), sharedFiles.end(), source->path()) != sharedFiles.end();
+            BackupContent::Module module{
+                source, valuesOf(controller_.core().tables(), static_cast<int32_t>(index), names),
+                names.front()};
+            const bool isShared =
+                std::find(sharedFiles.begin(), sharedFiles.end(), source->path()) != sharedFiles.end();
             if (!isShared)
                 taken.modules.push_back(std::move(module));
             else if (shared_.insert(source->path()).second)
@@ -112,11 +150,14 @@ class Taker {
         const rt::Task& task = *controller_.core().tasks()[index];
         for (const rt::LoadedModule& module : controller_.core().tables().modules()) {
             std::string text;
-            if (module.unit == nullptr || module.task != static_cast<int32_t>(index) || !controller_.moduleText(task, module.name, text))
+            if (module.unit == nullptr || module.task != static_cast<int32_t>(index) ||
+                !controller_.moduleText(task, module.name, text))
                 continue;
             const std::string ending = fs::path(module.file).extension().string();
-            const auto source = std::make_shared<const SourceFile>(module.name + (ending.empty() ? ".modx" : ending), std::move(text));
-            taken.modules.push_back({source, valuesOf(controller_.core().tables(), module.task, {module.name}), module.name});
+            const auto source = std::make_shared<const SourceFile>(
+                module.name + (ending.empty() ? ".modx" : ending), std::move(text));
+            taken.modules.push_back(
+                {source, valuesOf(controller_.core().tables(), module.task, {module.name}), module.name});
         }
     }
 
@@ -170,13 +211,18 @@ class Writer {
             if (task.isConfigured) continue;
             rapid::config::CfgInstance& instance = section.instances.emplace_back();
             instance.attributes.push_back({"Name", {task.name}, true, 0});
-            if (!sameName(task.type, "SEMISTATIC")) instance.attributes.push_back({"Type", {task.type}, true, 0});
-            if (!task.entry.empty() && !sameName(task.entry, "main")) instance.attributes.push_back({"Entry", {task.entry}, true, 0});
+            if (!sameName(task.type, "SEMISTATIC"))
+                instance.attributes.push_back({"Type", {task.type}, true, 0});
+            if (!task.entry.empty() && !sameName(task.entry, "main"))
+                instance.attributes.push_back({"Entry", {task.entry}, true, 0});
             if (task.isMotionTask) instance.attributes.push_back({"MotionTask", {}, false, 0});
         }
         if (section.instances.empty()) return;
-        rapid::config::CfgFile added{{}, "SYS", fmt::format("CFG_1.0:{}:0::", content_.robotWare.major == 6 ? 6 : 7), {section}};
-        const auto sys = std::find_if(files.begin(), files.end(), [](const auto& file) { return sameName(fs::path(file.first).stem().string(), "SYS"); });
+        rapid::config::CfgFile added{
+            {}, "SYS", fmt::format("CFG_1.0:{}:0::", content_.robotWare.major == 6 ? 6 : 7), {section}};
+        const auto sys = std::find_if(files.begin(), files.end(), [](const auto& file) {
+            return sameName(fs::path(file.first).stem().string(), "SYS");
+        });
         if (sys == files.end()) {
             files.emplace_back("SYS.cfg", rapid::config::writeCfg(added));
             return;
@@ -191,7 +237,8 @@ class Writer {
     void writeModule(const std::string& taskFolder, const BackupContent::Module& module) {
         rapid::diag::Sink ignored;
         const auto tree = rapid::syntax::parse(module.source, ignored);
-        const bool isSystem = !tree->modules.empty() && (tree->modules.front()->attributes & rapid::syntax::kAttrSysmodule) != 0;
+        const bool isSystem = !tree->modules.empty() &&
+                              (tree->modules.front()->attributes & rapid::syntax::kAttrSysmodule) != 0;
         rapid::edit::SavedModule saved = rapid::edit::saveValues(*tree, module.values);
         const std::string bytes = saved.ok() ? std::move(saved.bytes) : module.source->bytes();
         std::string ending = fs::path(module.source->path()).extension().string();
@@ -239,29 +286,38 @@ class Writer {
 
     void writeDescriptions() {
         const std::string time = calendarText(content_.calendarSeconds);
-        std::string info = fmt::format("#\n# Generated backup file, do not edit.\n#\n# {}\n#\n>>SYSTEM_ID:\n{}\n\n>>PRODUCTS_ID:\n", time,
-                                       content_.system.name);
-        info += fmt::format("RobotWare Version: {}\n\n", content_.robotWare.name);
+        std::string info = fmt::format(
+            "#\n# Generated backup file, do not edit.\n#\n# {}\n#\n>>SYSTEM_ID:\n{}\n\n>>PRODUCTS_ID:\n",
+            time, content_.system.name);
+        info += fmt::format("RobotWare Version: {}\n", content_.robotWare.name);
+        for (const std::string& addIn : content_.system.addIns)
+            if (const std::size_t blank = addIn.rfind(' '); blank != std::string::npos)
+                info += fmt::format("{} Version: {}\n", addIn.substr(0, blank), addIn.substr(blank + 1));
+        info += '\n';
         for (const std::string& option : content_.system.options)
             info += fmt::format("  {}\n", option);
-        const bool isListed = std::find(content_.system.options.begin(), content_.system.options.end(), content_.system.robotType) !=
-                              content_.system.options.end();
+        const bool isListed = std::find(content_.system.options.begin(), content_.system.options.end(),
+                                        content_.system.robotType) != content_.system.options.end();
         if (!content_.namesRobot && !isListed) info += fmt::format("  {}\n", content_.system.robotType);
         info += "\n>>HOME:\nAll public files and directories\n\n>>SYSPAR:\n";
         for (const std::string& name : parameterNames_)
             info += name + "\n";
         info += "\n\n" + taskLists_ + ">>EOF:\n";
         put("BACKINFO/backinfo.txt", info);
-        put("BACKINFO/version.xml", fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Version>\n  <Major>{}</Major>\n  <Minor>{}</Minor>\n"
-                                                "  <Build>{}</Build>\n  <Revision>{}</Revision>\n  <Name>{}</Name>\n</Version>\n",
-                                                content_.robotWare.major, content_.robotWare.minor, content_.robotWare.build,
-                                                content_.robotWare.revision, content_.robotWare.name));
+        put("BACKINFO/version.xml",
+            fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Version>\n  <Major>{}</Major>\n  "
+                        "<Minor>{}</Minor>\n"
+                        "  <Build>{}</Build>\n  <Revision>{}</Revision>\n  <Name>{}</Name>\n</Version>\n",
+                        content_.robotWare.major, content_.robotWare.minor, content_.robotWare.build,
+                        content_.robotWare.revision, content_.robotWare.name));
         put("BACKINFO/system.guid", content_.system.id + "\n");
         put("BACKINFO/template.guid", content_.system.id + "\n");
         put("BACKINFO/program.id", "rapidc\n");
-        put("system.xml", fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<System>\n  <Name>{}</Name>\n  <Id>{}</Id>\n"
-                                      "  <RobotWare>{}</RobotWare>\n</System>\n",
-                                      escaped(content_.system.name), content_.system.id, content_.robotWare.name));
+        put("system.xml",
+            fmt::format(
+                "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<System>\n  <Name>{}</Name>\n  <Id>{}</Id>\n"
+                "  <RobotWare>{}</RobotWare>\n</System>\n",
+                escaped(content_.system.name), content_.system.id, content_.robotWare.name));
     }
 
     static std::string escaped(const std::string& text) {
@@ -313,15 +369,18 @@ BackupContent takeBackup(VirtualController& controller, const ConfigurationStore
     Taker taker(controller, content);
     for (std::size_t i = 0; i < controller.core().tasks().size(); ++i) {
         taker.takeTask(i);
-        content.tasks.back().isConfigured = configured.contains(rapid::config::upperCase(content.tasks.back().name));
+        content.tasks.back().isConfigured =
+            configured.contains(rapid::config::upperCase(content.tasks.back().name));
     }
+    keepEarlier(controller, content);
     return content;
 }
 
 std::string writeBackup(const BackupContent& content, const std::string& folder) {
     std::error_code code;
     const fs::path target = fs::absolute(folder).lexically_normal();
-    if (fs::exists(fs::symlink_status(target, code))) return fmt::format("{} exists already", target.filename().string());
+    if (fs::exists(fs::symlink_status(target, code)))
+        return fmt::format("{} exists already", target.filename().string());
     rapid::config::TemporaryFolder temporary;
     if (const int error = temporary.makeBeside(target.parent_path(), target.filename().string()); error != 0)
         return std::strerror(error);
@@ -329,7 +388,8 @@ std::string writeBackup(const BackupContent& content, const std::string& folder)
     fs::create_directory(whole, code);
     if (code) return code.message();
     if (std::string problem = Writer(content, whole).write(); !problem.empty()) return problem;
-    if (::renameat2(AT_FDCWD, whole.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) != 0) return std::strerror(errno);
+    if (::renameat2(AT_FDCWD, whole.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) != 0)
+        return std::strerror(errno);
     return {};
 }
 

@@ -14,7 +14,7 @@
 
 namespace rapidc::service {
 
-/// What a backup is made of, taken at one moment. Writing it needs nothing else.
+/// Contents of a backup, taken at one moment. Writing it needs nothing else.
 struct BackupContent {
     struct Module {
         std::shared_ptr<const rapid::SourceFile> source;
@@ -26,14 +26,14 @@ struct BackupContent {
         bool isMotionTask = false;
         bool isConfigured = false; ///< CAB_TASKS has it
         std::vector<Module> modules;
-        std::vector<std::string> opaqueFiles; ///< encrypted modules of the backup that was loaded, paths
+        std::vector<std::string> opaqueFiles; ///< of the backup that was loaded: encrypted, kept as they are
     };
     std::vector<Task> tasks;
-    std::vector<Module> shared; ///< installed once for all tasks: TASK0
+    std::vector<Module> shared;                                  ///< installed once for all tasks: TASK0
     std::vector<std::pair<std::string, std::string>> parameters; ///< files of SYSPAR: name, bytes
     SystemFacts system;
     RobotWareVersion robotWare;
-    std::string homeFolder; ///< on the host
+    std::string homeFolder;  ///< on the host
     bool namesRobot = false; ///< MOC.cfg has it
     int64_t calendarSeconds = 0;
 };

@@ -56,7 +56,8 @@ void put(CfgInstance& instance, std::string name, const std::string& value) {
     instance.attributes.push_back({std::move(name), {value}, true, 0});
 }
 void putNumber(CfgInstance& instance, std::string name, double value) {
-    instance.attributes.push_back({std::move(name), {fmt::format("{}", static_cast<float>(value))}, false, 0});
+    instance.attributes.push_back(
+        {std::move(name), {fmt::format("{}", static_cast<float>(value))}, false, 0});
 }
 void putFlag(CfgInstance& instance, std::string name, bool value) {
     if (value) instance.attributes.push_back({std::move(name), {}, false, 0});
@@ -77,8 +78,8 @@ std::vector<Axis> axesOf(const rt::MechanicalUnits& units, const rt::MechanicalU
         for (const rt::MechanicalUnit::Axis& own : unit.own) {
             const double factor = own.limits.rotating ? kDegreesPerRadian : kMillimetres;
             axes.push_back({own.single.empty() ? fmt::format("{}_{}", unit.name, number + 1) : own.single,
-                            7 + static_cast<int>(own.index), ++number, own.limits.rotating, own.limits.lower / factor,
-                            own.limits.upper / factor});
+                            7 + static_cast<int>(own.index), ++number, own.limits.rotating,
+                            own.limits.lower / factor, own.limits.upper / factor});
         }
         return axes;
     }
@@ -87,8 +88,8 @@ std::vector<Axis> axesOf(const rt::MechanicalUnits& units, const rt::MechanicalU
     for (std::size_t i = 0; i < kinematics.jointCount(); ++i) {
         const int number = kinematics.axisNumber(i);
         const double factor = kinematics.isLinear(i) ? kMillimetres : kDegreesPerRadian;
-        axes.push_back({fmt::format("rob{}_{}", unit.group + 1, number), number, number, !kinematics.isLinear(i),
-                        model.lowerDeg[i] / factor, model.upperDeg[i] / factor});
+        axes.push_back({fmt::format("rob{}_{}", unit.group + 1, number), number, number,
+                        !kinematics.isLinear(i), model.lowerDeg[i] / factor, model.upperDeg[i] / factor});
     }
     return axes;
 }
@@ -128,7 +129,8 @@ void addAxis(std::vector<CfgInstance>& instances, std::string_view type, const A
     }
 }
 
-void addRobot(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units, const rt::MechanicalUnit& unit) {
+void addRobot(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units,
+              const rt::MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
     const rt::MotionGroup& group = units.groups()[unit.group];
     put(instance, "name", unit.name);
@@ -140,7 +142,8 @@ void addRobot(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& un
     put(instance, "base_frame_coordinated", unit.carrier);
 }
 
-void addUnit(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units, const rt::MechanicalUnit& unit) {
+void addUnit(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units,
+             const rt::MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
     put(instance, "name", unit.name);
     if (unit.isRobot) put(instance, "use_robot", unit.name);
@@ -160,7 +163,8 @@ void addGroup(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& un
     put(instance, "Robot", group.robot);
     std::size_t other = 1;
     for (const auto& unit : units.all())
-        if (!unit->isRobot && unit->group == number && other <= 6) put(instance, fmt::format("MechanicalUnit_{}", other++), unit->name);
+        if (!unit->isRobot && unit->group == number && other <= 6)
+            put(instance, fmt::format("MechanicalUnit_{}", other++), unit->name);
 }
 
 } // namespace
@@ -184,7 +188,8 @@ std::vector<std::string> cfgTypesOf(std::string_view domain) {
     return types;
 }
 
-std::vector<CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std::string_view domain, std::string_view wanted) {
+std::vector<CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std::string_view domain,
+                                          std::string_view wanted) {
     std::vector<CfgInstance> instances;
     const std::string type = rapid::config::upperCase(wanted);
     if (sameName(domain, "SYS") && type == "MECHANICAL_UNIT_GROUP") {
@@ -206,7 +211,8 @@ std::vector<CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std:
             put(single, "use_single_type", axis.name);
             put(single, "use_joint", axis.name);
             const auto index = static_cast<std::size_t>(axis.kinematic - 1);
-            putFrame(single, index < unit->geometry.joints.size() ? unit->geometry.joints[index].base : robot::Pose());
+            putFrame(single, index < unit->geometry.joints.size() ? unit->geometry.joints[index].base
+                                                                  : robot::Pose());
         }
     }
     return instances;

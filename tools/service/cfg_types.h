@@ -21,7 +21,8 @@ struct CfgAttributeType {
 
 struct CfgType {
     std::string domain, type;
-    std::vector<CfgAttributeType> attributes; ///< the first one is the name of an instance, unless the type has none
+    std::vector<CfgAttributeType>
+        attributes; ///< the first one is the name of an instance, unless the type has none
     const CfgAttributeType* find(std::string_view attribute) const;
 };
 
@@ -31,7 +32,7 @@ const CfgType* cfgType(std::string_view domain, std::string_view type);
 std::vector<std::string> cfgTypesOf(std::string_view domain);
 
 /// Instances of MOC types and SYS MECHANICAL_UNIT_GROUP from the mechanical units. Lengths in metres, angles in radians.
-std::vector<rapid::config::CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std::string_view domain,
-                                                         std::string_view type);
+std::vector<rapid::config::CfgInstance> impliedInstances(const rt::MechanicalUnits& units,
+                                                         std::string_view domain, std::string_view type);
 
 } // namespace rapidc::service

@@ -34,7 +34,8 @@ bool isFlagText(std::string_view text) {
 std::string valueText(const CfgAttribute& attribute, const CfgAttributeType* type) {
     if (attribute.values.empty()) return "true";
     std::string text = fmt::format("{}", fmt::join(attribute.values, ","));
-    if (type != nullptr && type->kind == CfgKind::Flag && isFlagText(text)) return isTrue(text) ? "true" : "false";
+    if (type != nullptr && type->kind == CfgKind::Flag && isFlagText(text))
+        return isTrue(text) ? "true" : "false";
     return text;
 }
 
@@ -67,7 +68,8 @@ CfgInstance* instanceIn(CfgFile& file, std::string_view type, std::string_view n
 
 std::string versionFor(int robotWare, const std::string& domain) {
     const bool isSix = robotWare == 6;
-    return fmt::format("CFG_1.0:{}:{}::", isSix ? 6 : 7, isSix && (domain == "EIO" || domain == "SIO") ? 1 : 0);
+    return fmt::format("CFG_1.0:{}:{}::", isSix ? 6 : 7,
+                       isSix && (domain == "EIO" || domain == "SIO") ? 1 : 0);
 }
 
 } // namespace
@@ -112,7 +114,8 @@ void ConfigurationStore::read() {
             if (same == nullptr || !sameName(same->baseType, section.baseType))
                 whole.sections.push_back(section);
             else
-                same->instances.insert(same->instances.end(), section.instances.begin(), section.instances.end());
+                same->instances.insert(same->instances.end(), section.instances.begin(),
+                                       section.instances.end());
         }
     }
 }
@@ -138,7 +141,9 @@ std::vector<std::string> ConfigurationStore::types(const std::string& domain) co
     const auto found = files_.find(domain);
     if (found == files_.end()) return names;
     for (const CfgSection& section : found->second.sections) {
-        const bool isThere = std::any_of(names.begin(), names.end(), [&](const std::string& name) { return sameName(name, section.type); });
+        const bool isThere = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+            return sameName(name, section.type);
+        });
         if (!isThere) names.push_back(section.type);
     }
     return names;
@@ -149,8 +154,9 @@ bool ConfigurationStore::isType(const std::string& domain, std::string_view type
     return std::any_of(all.begin(), all.end(), [&](const std::string& name) { return sameName(name, type); });
 }
 
-ConfigurationStore::Instance ConfigurationStore::shown(const std::string& domain, std::string_view type, const CfgInstance* written,
-                                                       const CfgInstance* implied, std::size_t number) const {
+ConfigurationStore::Instance ConfigurationStore::shown(const std::string& domain, std::string_view type,
+                                                       const CfgInstance* written, const CfgInstance* implied,
+                                                       std::size_t number) const {
     Instance instance;
     const CfgType* known = cfgType(domain, type);
     std::set<std::string> done;
@@ -160,7 +166,8 @@ ConfigurationStore::Instance ConfigurationStore::shown(const std::string& domain
     const auto valueOf = [&](const CfgAttributeType& attribute) {
         for (const CfgInstance* from : {written, implied})
             if (from != nullptr)
-                if (const CfgAttribute* found = from->find(attribute.name)) return valueText(*found, &attribute);
+                if (const CfgAttribute* found = from->find(attribute.name))
+                    return valueText(*found, &attribute);
         return attribute.standard;
     };
     if (known != nullptr)
@@ -169,13 +176,17 @@ ConfigurationStore::Instance ConfigurationStore::shown(const std::string& domain
     for (const CfgInstance* from : {written, implied})
         if (from != nullptr)
             for (const CfgAttribute& attribute : from->attributes)
-                add(attribute.name, valueText(attribute, known == nullptr ? nullptr : known->find(attribute.name)));
-    instance.name = written != nullptr ? nameOf(*written) : implied != nullptr ? nameOf(*implied) : std::string();
+                add(attribute.name,
+                    valueText(attribute, known == nullptr ? nullptr : known->find(attribute.name)));
+    instance.name = written != nullptr   ? nameOf(*written)
+                    : implied != nullptr ? nameOf(*implied)
+                                         : std::string();
     if (instance.name.empty()) instance.name = std::to_string(number);
     return instance;
 }
 
-std::vector<ConfigurationStore::Instance> ConfigurationStore::instances(const std::string& domain, std::string_view type) const {
+std::vector<ConfigurationStore::Instance> ConfigurationStore::instances(const std::string& domain,
+                                                                        std::string_view type) const {
     std::vector<CfgInstance> implied = impliedInstances(controller_.core().units(), domain, type);
     std::vector<Instance> all;
     std::size_t number = 0;
@@ -190,17 +201,19 @@ std::vector<ConfigurationStore::Instance> ConfigurationStore::instances(const st
                     return !name.empty() && sameName(nameOf(other), name);
                 });
                 named.insert(rapid::config::lowerCase(name));
-                all.push_back(shown(domain, type, &instance, same == implied.end() ? nullptr : &*same, number));
+                all.push_back(
+                    shown(domain, type, &instance, same == implied.end() ? nullptr : &*same, number));
             }
         }
     }
     for (const CfgInstance& instance : implied)
-        if (!named.contains(rapid::config::lowerCase(nameOf(instance)))) all.push_back(shown(domain, type, nullptr, &instance, ++number));
+        if (!named.contains(rapid::config::lowerCase(nameOf(instance))))
+            all.push_back(shown(domain, type, nullptr, &instance, ++number));
     return all;
 }
 
-std::optional<ConfigurationStore::Instance> ConfigurationStore::find(const std::string& domain, std::string_view type,
-                                                                     std::string_view name) const {
+std::optional<ConfigurationStore::Instance>
+ConfigurationStore::find(const std::string& domain, std::string_view type, std::string_view name) const {
     std::optional<Instance> found;
     for (Instance& instance : instances(domain, type))
         if (sameName(instance.name, name)) found = std::move(instance); // of several the last one counts
@@ -209,7 +222,8 @@ std::optional<ConfigurationStore::Instance> ConfigurationStore::find(const std::
 
 std::string ConfigurationStore::text(const std::string& domain) const {
     const auto found = files_.find(domain);
-    return found == files_.end() ? std::string() : rapid::config::toLatin1(rapid::config::writeCfg(found->second));
+    return found == files_.end() ? std::string()
+                                 : rapid::config::toLatin1(rapid::config::writeCfg(found->second));
 }
 
 std::vector<std::pair<std::string, std::string>> ConfigurationStore::files() const {
@@ -233,9 +247,10 @@ std::vector<std::pair<std::string, std::string>> ConfigurationStore::files() con
 
 // ---- Changes -------------------------------------------------------------------------------------------------------
 
-Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain, std::string_view type, const std::string& attribute,
-                                const std::string& value) const {
-    if (!rapid::config::isCfgName(attribute)) return fmt::format("'{}' is no name of an attribute", attribute);
+Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain, std::string_view type,
+                                const std::string& attribute, const std::string& value) const {
+    if (!rapid::config::isCfgName(attribute))
+        return fmt::format("'{}' is not a name of an attribute", attribute);
     if (!rapid::config::isCfgValue(value))
         return fmt::format("the value of {} has characters that a configuration cannot hold", attribute);
     const CfgType* known = cfgType(domain, type);
@@ -245,7 +260,8 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
         // an attribute that the table does not know: somebody has written it in another instance
         const std::vector<Instance> others = instances(domain, type);
         const bool isUsed = std::any_of(others.begin(), others.end(), [&](const Instance& other) {
-            return std::any_of(other.values.begin(), other.values.end(), [&](const auto& one) { return sameName(one.first, attribute); });
+            return std::any_of(other.values.begin(), other.values.end(),
+                               [&](const auto& one) { return sameName(one.first, attribute); });
         });
         if (!isUsed) return fmt::format("{} has no attribute {}", type, attribute);
     }
@@ -256,13 +272,20 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
         return fmt::format("{} is a number, '{}' is none", attribute, value);
     if (kind != nullptr && kind->kind == CfgKind::Flag && !isFlagText(value) && value != "0" && value != "1")
         return fmt::format("{} is true or false, not '{}'", attribute, value);
-    CfgAttribute written{present != nullptr ? present->name : kind != nullptr ? kind->name : attribute, {}, false, 0};
+    CfgAttribute written{present != nullptr ? present->name
+                         : kind != nullptr  ? kind->name
+                                            : attribute,
+                         {},
+                         false,
+                         0};
     const bool isFlag = kind != nullptr ? kind->kind == CfgKind::Flag : wasFlag && isFlagText(value);
     if (isFlag) {
         const bool on = isTrue(value) || value == "1";
-        if (!on && kind != nullptr && kind->standard == "true") written.values = {"NO"}, written.quoted = true;
+        if (!on && kind != nullptr && kind->standard == "true")
+            written.values = {"NO"}, written.quoted = true;
         if (!on && written.values.empty()) { // absent means false
-            std::erase_if(instance.attributes, [&](const CfgAttribute& other) { return sameName(other.name, attribute); });
+            std::erase_if(instance.attributes,
+                          [&](const CfgAttribute& other) { return sameName(other.name, attribute); });
             return {};
         }
     } else {
@@ -280,7 +303,8 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
 }
 
 /// Mistakes that would keep the controller from starting.
-Refusal ConfigurationStore::judge(const CfgFile& file, std::string_view type, const CfgInstance* instance) const {
+Refusal ConfigurationStore::judge(const CfgFile& file, std::string_view type,
+                                  const CfgInstance* instance) const {
     std::vector<CfgProblem> problems;
     if (file.domain == "EIO" && instance != nullptr && sameName(type, "EIO_SIGNAL")) {
         CfgFile one{file.name, file.domain, file.version, {{"EIO_SIGNAL", {}, {*instance}, 0}}};
@@ -300,7 +324,8 @@ Refusal ConfigurationStore::judge(const CfgFile& file, std::string_view type, co
                     found.push_back(&each);
             return found;
         };
-        const std::string problem = units.read(lookup, controller_.settings().options.robots, rt::kDefaultRobot, 1, isUsage);
+        const std::string problem =
+            units.read(lookup, controller_.settings().options.robots, rt::kDefaultRobot, 1, isUsage);
         if (!problem.empty()) return problem;
     }
     for (const CfgProblem& problem : problems)
@@ -310,7 +335,8 @@ Refusal ConfigurationStore::judge(const CfgFile& file, std::string_view type, co
 
 Refusal ConfigurationStore::replace(const std::string& domain, CfgFile file) {
     const std::string path = fmt::format("{}/{}.cfg", folder_, domain);
-    if (const std::string problem = rapid::config::replaceFile(path, rapid::config::toLatin1(rapid::config::writeCfg(file)));
+    if (const std::string problem =
+            rapid::config::replaceFile(path, rapid::config::toLatin1(rapid::config::writeCfg(file)));
         !problem.empty())
         return problem;
     files_[domain] = std::move(file);
@@ -321,43 +347,54 @@ Refusal ConfigurationStore::replace(const std::string& domain, CfgFile file) {
     return {};
 }
 
-Refusal ConfigurationStore::set(const std::string& domain, std::string_view type, std::string_view name, const CfgValues& values) {
+Refusal ConfigurationStore::set(const std::string& domain, std::string_view type, std::string_view name,
+                                const CfgValues& values) {
     const auto present = find(domain, type, name);
     if (!present) return fmt::format("{} has no instance {}", type, name);
     CfgFile file = fileOf(domain);
     CfgInstance* instance = instanceIn(file, type, present->name);
     if (instance == nullptr) { // implied by the robot: from now on it is written
         CfgSection* section = sectionOf(file, type);
-        if (section == nullptr) section = &file.sections.emplace_back(CfgSection{rapid::config::upperCase(type), {}, {}, 0});
+        if (section == nullptr)
+            section = &file.sections.emplace_back(CfgSection{rapid::config::upperCase(type), {}, {}, 0});
         instance = &section->instances.emplace_back();
         const CfgType* known = cfgType(domain, type);
-        instance->attributes.push_back({known == nullptr ? "name" : known->attributes.front().name, {present->name}, true, 0});
+        instance->attributes.push_back(
+            {known == nullptr ? "name" : known->attributes.front().name, {present->name}, true, 0});
         if (sameName(type, "ROBOT"))
             for (const auto& [attribute, value] : present->values)
-                if (sameName(attribute, "use_robot_type")) instance->attributes.push_back({attribute, {value}, true, 0});
+                if (sameName(attribute, "use_robot_type"))
+                    instance->attributes.push_back({attribute, {value}, true, 0});
     }
     for (const auto& [attribute, value] : values) {
         if (sameName(attribute, "Name") && !sameName(value, present->name) && find(domain, type, value))
             return fmt::format("{} has an instance {} already", type, value);
-        if (Refusal refusal = put(*instance, domain, type, attribute, value); !refusal.empty()) return refusal;
+        if (Refusal refusal = put(*instance, domain, type, attribute, value); !refusal.empty())
+            return refusal;
     }
     if (Refusal refusal = judge(file, type, instance); !refusal.empty()) return refusal;
     return replace(domain, std::move(file));
 }
 
-Refusal ConfigurationStore::create(const std::string& domain, std::string_view type, const std::string& name, const CfgValues& values) {
-    if (!rapid::config::isCfgName(type)) return fmt::format("'{}' is no name of a type", type);
-    if (name.empty() || !rapid::config::isCfgValue(name)) return "the name of the instance is missing or not possible";
+Refusal ConfigurationStore::create(const std::string& domain, std::string_view type, const std::string& name,
+                                   const CfgValues& values) {
+    if (!rapid::config::isCfgName(type)) return fmt::format("'{}' is not a name of a type", type);
+    if (name.empty() || !rapid::config::isCfgValue(name))
+        return "the name of the instance is missing or not possible";
     if (find(domain, type, name)) return fmt::format("{} has an instance {} already", type, name);
     CfgFile file = fileOf(domain);
     const CfgType* known = cfgType(domain, type);
     CfgSection* section = sectionOf(file, type);
     if (section == nullptr)
-        section = &file.sections.emplace_back(CfgSection{known != nullptr ? known->type : rapid::config::upperCase(type), {}, {}, 0});
-    if (section->instances.size() >= kMostInstances) return fmt::format("{} has {} instances, the maximum", type, kMostInstances);
+        section = &file.sections.emplace_back(
+            CfgSection{known != nullptr ? known->type : rapid::config::upperCase(type), {}, {}, 0});
+    if (section->instances.size() >= kMostInstances)
+        return fmt::format("{} has {} instances, the maximum", type, kMostInstances);
     CfgInstance& instance = section->instances.emplace_back();
-    instance.attributes.push_back({known == nullptr ? "Name" : known->attributes.front().name, {name}, true, 0});
-    if (sameName(type, "EIO_SIGNAL")) instance.attributes.push_back({"SignalType", {"DI"}, true, 0}); // a signal must have one
+    instance.attributes.push_back(
+        {known == nullptr ? "Name" : known->attributes.front().name, {name}, true, 0});
+    if (sameName(type, "EIO_SIGNAL"))
+        instance.attributes.push_back({"SignalType", {"DI"}, true, 0}); // a signal must have one
     for (const auto& [attribute, value] : values)
         if (Refusal refusal = put(instance, domain, type, attribute, value); !refusal.empty()) return refusal;
     if (Refusal refusal = judge(file, type, &instance); !refusal.empty()) return refusal;
@@ -368,7 +405,8 @@ Refusal ConfigurationStore::remove(const std::string& domain, std::string_view t
     if (!find(domain, type, name)) return fmt::format("{} has no instance {}", type, name);
     CfgFile file = fileOf(domain);
     const CfgInstance* instance = instanceIn(file, type, name);
-    if (instance == nullptr) return fmt::format("{} {} belongs to the robot and cannot be removed", type, name);
+    if (instance == nullptr)
+        return fmt::format("{} {} belongs to the robot and cannot be removed", type, name);
     for (CfgSection& section : file.sections)
         for (std::size_t i = 0; i < section.instances.size(); ++i)
             if (&section.instances[i] == instance) {
@@ -384,23 +422,27 @@ Refusal ConfigurationStore::load(std::string_view bytes, Load mode, bool tryOnly
     CfgFile loaded = rapid::config::parseCfg(bytes, "configuration", problems);
     if (!problems.empty()) return problems.front().text();
     const std::string domain = domainNamed(loaded.domain);
-    if (domain.empty()) return fmt::format("the file is of domain '{}', which controllers do not have", loaded.domain);
+    if (domain.empty())
+        return fmt::format("the file is of domain '{}', which controllers do not have", loaded.domain);
     loaded.domain = domain;
     CfgFile file = mode == Load::Replace ? loaded : fileOf(domain);
     for (const CfgSection& section : loaded.sections) {
         for (const CfgInstance& instance : section.instances) {
             for (const CfgAttribute& attribute : instance.attributes)
                 for (const std::string& value : attribute.values)
-                    if (!rapid::config::isCfgValue(value)) return fmt::format("line {}: a value cannot be kept", instance.line);
+                    if (!rapid::config::isCfgValue(value))
+                        return fmt::format("line {}: a value cannot be kept", instance.line);
             if (Refusal refusal = judge({file.name, domain, file.version, {}}, section.type, &instance);
                 domain == "EIO" && !refusal.empty())
                 return fmt::format("line {}: {}", instance.line, refusal);
             if (mode == Load::Replace) continue;
             const std::string name = nameOf(instance);
             CfgInstance* same = name.empty() ? nullptr : instanceIn(file, section.type, name);
-            if (same != nullptr && mode == Load::Add) return fmt::format("{} has an instance {} already", section.type, name);
+            if (same != nullptr && mode == Load::Add)
+                return fmt::format("{} has an instance {} already", section.type, name);
             CfgSection* into = sectionOf(file, section.type);
-            if (into == nullptr) into = &file.sections.emplace_back(CfgSection{section.type, section.baseType, {}, 0});
+            if (into == nullptr)
+                into = &file.sections.emplace_back(CfgSection{section.type, section.baseType, {}, 0});
             if (same != nullptr)
                 *same = instance;
             else
@@ -418,7 +460,8 @@ void ConfigurationStore::choose(Inputs& inputs) {
     for (const auto& [path, bytes] : originals_) {
         std::vector<CfgProblem> ignored;
         const std::string domain = domainNamed(rapid::config::parseCfg(bytes, path, ignored).domain);
-        if (changed_.contains(domain)) texts->set(path, fmt::format("{}:{}\n#\n", domain, files_[domain].version));
+        if (changed_.contains(domain))
+            texts->set(path, fmt::format("{}:{}\n#\n", domain, files_[domain].version));
     }
     for (const std::string& domain : changed_) {
         const std::string path = fmt::format("{}/{}.cfg", folder_, domain);

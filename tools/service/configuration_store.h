@@ -40,17 +40,20 @@ class ConfigurationStore {
     };
     std::vector<Instance> instances(const std::string& domain, std::string_view type) const;
     /// Without regard to case.
-    std::optional<Instance> find(const std::string& domain, std::string_view type, std::string_view name) const;
+    std::optional<Instance> find(const std::string& domain, std::string_view type,
+                                 std::string_view name) const;
 
     // Changes: "" or why not; then nothing has changed.
-    Refusal set(const std::string& domain, std::string_view type, std::string_view name, const CfgValues& values);
-    Refusal create(const std::string& domain, std::string_view type, const std::string& name, const CfgValues& values);
+    Refusal set(const std::string& domain, std::string_view type, std::string_view name,
+                const CfgValues& values);
+    Refusal create(const std::string& domain, std::string_view type, const std::string& name,
+                   const CfgValues& values);
     Refusal remove(const std::string& domain, std::string_view type, std::string_view name);
 
     enum class Load : uint8_t {
-        Add,       ///< what is there already is a refusal
+        Add, ///< what is there already is a refusal
         AddOrReplace,
-        Replace,   ///< everything of the domain goes first
+        Replace, ///< everything of the domain goes first
     };
     /// `bytes`: of a configuration file. `tryOnly`: nothing is changed.
     Refusal load(std::string_view bytes, Load mode, bool tryOnly);
@@ -65,12 +68,15 @@ class ConfigurationStore {
 
   private:
     rapid::config::CfgFile& fileOf(const std::string& domain);
-    const rapid::config::CfgInstance* written(const std::string& domain, std::string_view type, std::string_view name) const;
-    Instance shown(const std::string& domain, std::string_view type, const rapid::config::CfgInstance* written,
-                   const rapid::config::CfgInstance* implied, std::size_t number) const;
-    Refusal put(rapid::config::CfgInstance& instance, const std::string& domain, std::string_view type, const std::string& attribute,
-                const std::string& value) const;
-    Refusal judge(const rapid::config::CfgFile& file, std::string_view type, const rapid::config::CfgInstance* instance) const;
+    const rapid::config::CfgInstance* written(const std::string& domain, std::string_view type,
+                                              std::string_view name) const;
+    Instance shown(const std::string& domain, std::string_view type,
+                   const rapid::config::CfgInstance* written, const rapid::config::CfgInstance* implied,
+                   std::size_t number) const;
+    Refusal put(rapid::config::CfgInstance& instance, const std::string& domain, std::string_view type,
+                const std::string& attribute, const std::string& value) const;
+    Refusal judge(const rapid::config::CfgFile& file, std::string_view type,
+                  const rapid::config::CfgInstance* instance) const;
     Refusal replace(const std::string& domain, rapid::config::CfgFile file);
     void choose(Inputs& inputs);
     /// Everything as the present program has it.
@@ -79,11 +85,12 @@ class ConfigurationStore {
     VirtualController& controller_;
     std::string folder_;
     Observers::Token token_;
-    std::vector<std::string> paths_; ///< of the inputs: after a restored backup others
+    std::vector<std::string> paths_;                      ///< of the inputs: after a restored backup others
     std::map<std::string, rapid::config::CfgFile> files_; ///< by domain
     std::set<std::string> changed_;                       ///< domains
     std::vector<std::pair<std::string, std::string>> originals_; ///< path and bytes of the files at the start
-    std::vector<std::unique_ptr<rapid::project::OpenTexts>> texts_; ///< of each restart: compilations refer to them
+    std::vector<std::unique_ptr<rapid::project::OpenTexts>>
+        texts_; ///< of each restart: compilations refer to them
     uint64_t changes_ = 0;
 };
 

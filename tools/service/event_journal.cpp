@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <set>
 
 namespace rapidc::service {
 
@@ -15,7 +16,7 @@ struct Advice {
 
 Advice adviceFor(int number) {
     switch (number) {
-#define EVENT_ADVICE(code, consequences, causes, actions)                                                              \
+#define EVENT_ADVICE(code, consequences, causes, actions)                                                    \
     case code: return {consequences, causes, actions};
 #include "tools/service/event_advice.def"
 #undef EVENT_ADVICE
@@ -40,10 +41,17 @@ void append(std::string& text, std::string_view more) {
 } // namespace
 
 const std::vector<EventDomain>& eventDomains() {
-    static const std::vector<EventDomain> domains = {
-        {0, "Common"},  {1, "Operational"}, {2, "System"},            {3, "Hardware"}, {4, "Program"},
-        {5, "Motion"},  {7, "I/O & Communication"}, {8, "User"}, {9, "Functional Safety"}, {11, "Process"},
-        {12, "Configuration"}};
+    static const std::vector<EventDomain> domains = {{0, "Common"},
+                                                     {1, "Operational"},
+                                                     {2, "System"},
+                                                     {3, "Hardware"},
+                                                     {4, "Program"},
+                                                     {5, "Motion"},
+                                                     {7, "I/O & Communication"},
+                                                     {8, "User"},
+                                                     {9, "Functional Safety"},
+                                                     {11, "Process"},
+                                                     {12, "Configuration"}};
     return domains;
 }
 
@@ -51,8 +59,8 @@ std::string calendarText(int64_t secondsSince1970) {
     const auto time = static_cast<std::time_t>(secondsSince1970);
     std::tm parts{};
     ::gmtime_r(&time, &parts);
-    return fmt::format("{:04}-{:02}-{:02} T {:02}:{:02}:{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
-                       parts.tm_hour, parts.tm_min, parts.tm_sec);
+    return fmt::format("{:04}-{:02}-{:02} T {:02}:{:02}:{:02}", parts.tm_year + 1900, parts.tm_mon + 1,
+                       parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
 EventJournal::EventJournal(VirtualController& controller) : controller_(controller) {
@@ -84,11 +92,13 @@ void EventJournal::take(const rt::Event& event) {
     message->actions = advice.actions;
     if (event.errorNumber != 0)
         append(message->causes,
-               fmt::format("{}: {}", event.errorName.empty() ? fmt::format("Error {}", event.errorNumber) : event.errorName,
+               fmt::format("{}: {}",
+                           event.errorName.empty() ? fmt::format("Error {}", event.errorNumber)
+                                                   : event.errorName,
                            controller_.core().log().errorText(event.errorNumber)));
-    for (const int domain : {0, message->domain()}) {
+    std::set<int> domains{0, message->domain()};
+    for (const int domain : domains) {
         Messages& messages = byDomain_[domain];
-        if (domain == 0 && message->domain() == 0 && !messages.empty() && messages.back() == message) continue;
         messages.push_back(message);
         if (messages.size() > kKept) messages.pop_front();
     }
@@ -105,8 +115,9 @@ const EventJournal::Messages& EventJournal::messages(int domain) const {
 
 std::shared_ptr<const EventMessage> EventJournal::find(int domain, uint64_t number) const {
     const Messages& all = messages(domain);
-    const auto found = std::lower_bound(all.begin(), all.end(), number,
-                                        [](const auto& message, uint64_t wanted) { return message->number < wanted; });
+    const auto found =
+        std::lower_bound(all.begin(), all.end(), number,
+                         [](const auto& message, uint64_t wanted) { return message->number < wanted; });
     return found != all.end() && (*found)->number == number ? *found : nullptr;
 }
 

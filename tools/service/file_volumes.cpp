@@ -39,12 +39,13 @@ std::pair<std::string, std::string> split(const std::string& path) {
 
 /// A name for a new entry of a folder.
 bool isBareName(const std::string& name) {
-    return !name.empty() && name.size() <= 255 && name != "." && name != ".." && name.find_first_of("/\\") == std::string::npos &&
+    return !name.empty() && name.size() <= 255 && name != "." && name != ".." &&
+           name.find_first_of("/\\") == std::string::npos &&
            std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
 FileResult badName(const std::string& name) {
-    return {FileProblem::Outside, fmt::format("'{}' is no name for a file or folder", name)};
+    return {FileProblem::Outside, fmt::format("'{}' is not a name for a file or folder", name)};
 }
 
 FileEntry entryOf(const std::string& name, const struct stat& status) {
@@ -72,7 +73,8 @@ bool FileVolumes::add(const std::string& name, const std::string& folder) {
 
 bool FileVolumes::has(const std::string& path) const {
     const std::string volume = split(path).first;
-    return std::any_of(names_.begin(), names_.end(), [&](const std::string& name) { return sameName(name, volume); });
+    return std::any_of(names_.begin(), names_.end(),
+                       [&](const std::string& name) { return sameName(name, volume); });
 }
 
 FileResult FileVolumes::locate(const std::string& path, LastLink last, VolumePlace& place) const {
@@ -96,7 +98,8 @@ FileResult FileVolumes::hostPath(const std::string& path, std::string& host) con
 std::pair<uint64_t, uint64_t> FileVolumes::space(const std::string& volume) const {
     VolumePlace place;
     struct statvfs status{};
-    if (!locate(volume, LastLink::Follow, place).isDone() || ::fstatvfs(place.folder.number(), &status) != 0) return {0, 0};
+    if (!locate(volume, LastLink::Follow, place).isDone() || ::fstatvfs(place.folder.number(), &status) != 0)
+        return {0, 0};
     return {uint64_t{status.f_bavail} * status.f_frsize, uint64_t{status.f_blocks} * status.f_frsize};
 }
 
@@ -114,16 +117,20 @@ FileResult FileVolumes::describe(const std::string& path, FileEntry& entry) cons
 FileResult FileVolumes::list(const std::string& path, std::vector<FileEntry>& entries) const {
     VolumePlace place;
     if (FileResult found = locate(path, LastLink::Follow, place); !found.isDone()) return found;
-    const Descriptor folder(::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    const Descriptor folder(
+        ::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     std::vector<std::string> names;
-    if (!folder.isOpen() || !namesIn(folder.number(), names)) return {FileProblem::NoPath, fmt::format("{} is no folder", path)};
+    if (!folder.isOpen() || !namesIn(folder.number(), names))
+        return {FileProblem::NoPath, fmt::format("{} is not a folder", path)};
     for (const std::string& name : names) {
         if (isUnfinished(name)) continue;
         struct stat status{};
-        if (::fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue; // gone meanwhile
+        if (::fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+            continue; // gone meanwhile
         FileEntry entry;
         if (S_ISLNK(status.st_mode)) {
-            if (!describe(path + "/" + name, entry).isDone()) continue; // it leads nowhere, or out of the volume
+            if (!describe(path + "/" + name, entry).isDone())
+                continue; // it leads nowhere, or out of the volume
             entry.name = name;
         } else if (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) {
             entry = entryOf(name, status);
@@ -141,11 +148,13 @@ FileResult FileVolumes::list(const std::string& path, std::vector<FileEntry>& en
 FileResult FileVolumes::read(const std::string& path, std::string& bytes) const {
     VolumePlace place;
     if (FileResult found = locate(path, LastLink::Follow, place); !found.isDone()) return found;
-    const Descriptor file(::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const Descriptor file(
+        ::openat(place.folder.number(), place.name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status{};
     if (!file.isOpen() || ::fstat(file.number(), &status) != 0)
-        return {errno == EACCES ? FileProblem::Refused : FileProblem::NoPath, fmt::format("{}: {}", path, std::strerror(errno))};
-    if (!S_ISREG(status.st_mode)) return {FileProblem::Refused, fmt::format("{} is no file", path)};
+        return {errno == EACCES ? FileProblem::Refused : FileProblem::NoPath,
+                fmt::format("{}: {}", path, std::strerror(errno))};
+    if (!S_ISREG(status.st_mode)) return {FileProblem::Refused, fmt::format("{} is not a file", path)};
     if (static_cast<uint64_t>(status.st_size) > kLargestRead)
         return {FileProblem::TooLarge, fmt::format("{} has more than {} bytes", path, kLargestRead)};
     bytes.resize(static_cast<std::size_t>(status.st_size));
@@ -170,13 +179,17 @@ FileResult FileVolumes::write(const std::string& path, std::string_view bytes, b
     if (place.name != "." && !isBareName(place.name)) return badName(place.name);
     isNew = !statusOf(place, status);
     if (place.name == "." || (!isNew && !S_ISREG(status.st_mode)))
-        return {FileProblem::Refused, fmt::format("{} is no file", path)};
-    if (!isNew && (status.st_mode & S_IWUSR) == 0) return {FileProblem::Refused, fmt::format("{} may not be written", path)};
+        return {FileProblem::Refused, fmt::format("{} is not a file", path)};
+    if (!isNew && (status.st_mode & S_IWUSR) == 0)
+        return {FileProblem::Refused, fmt::format("{} may not be written", path)};
     struct statvfs disk{};
-    if (::fstatvfs(place.folder.number(), &disk) == 0 && uint64_t{disk.f_bavail} * disk.f_frsize < bytes.size() + kRoomLeft)
-        return {FileProblem::TooLarge, fmt::format("the disk of {} has no room for {} bytes", path, bytes.size())};
+    if (::fstatvfs(place.folder.number(), &disk) == 0 &&
+        uint64_t{disk.f_bavail} * disk.f_frsize < bytes.size() + kRoomLeft)
+        return {FileProblem::TooLarge,
+                fmt::format("the disk of {} has no room for {} bytes", path, bytes.size())};
     if (const int error = replaceIn(place.folder.number(), place.name, bytes); error != 0)
-        return {error == ENOSPC ? FileProblem::TooLarge : FileProblem::Failed, fmt::format("{}: {}", path, std::strerror(error))};
+        return {error == ENOSPC ? FileProblem::TooLarge : FileProblem::Failed,
+                fmt::format("{}: {}", path, std::strerror(error))};
     return done();
 }
 

@@ -13,12 +13,12 @@ namespace rapidc::service {
 
 enum class FileProblem : uint8_t {
     None,
-    NoPath,    ///< there is no such file, folder or volume
-    Outside,   ///< the path leads out of its volume, or is not a possible one
-    Exists,    ///< a target that is there already
-    Refused,   ///< a volume as such, a device, no permission
-    TooLarge,  ///< the file, or more than the disk has room for
-    Failed,    ///< the disk
+    NoPath,   ///< there is no such file, folder or volume
+    Outside,  ///< the path leads out of its volume, or is not a possible one
+    Exists,   ///< a target that is there already
+    Refused,  ///< a volume as such, a device, no permission
+    TooLarge, ///< the file, or more than the disk has room for
+    Failed,   ///< the disk
 };
 
 struct FileResult {
@@ -31,7 +31,7 @@ struct FileEntry {
     std::string name;
     bool isFolder = false;
     bool isReadOnly = false;
-    uint64_t size = 0;               ///< bytes
+    uint64_t size = 0;                 ///< bytes
     int64_t created = 0, modified = 0; ///< seconds since 1970
 };
 

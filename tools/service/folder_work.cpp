@@ -42,9 +42,11 @@ int writeAll(int file, std::string_view bytes) {
 }
 
 int openNew(int folder, const std::string& name, Descriptor& file) {
-    file = Descriptor(::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+    file = Descriptor(
+        ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
     if (!file.isOpen()) return errno;
-    (void)::flock(file.number(), LOCK_EX | LOCK_NB); // held while this process lives: it is no leftover
+    (void)::flock(file.number(),
+                  LOCK_EX | LOCK_NB); // held while this process lives: others do not take it for a leftover
     return 0;
 }
 
@@ -62,7 +64,8 @@ int removeTree(int parent, const std::string& name, int depth) {
     std::vector<std::string> names;
     if (!namesIn(folder.number(), names)) return errno;
     for (const std::string& each : names)
-        if (const int error = removeTree(folder.number(), each, depth + 1); error != 0 && error != ENOENT) return error;
+        if (const int error = removeTree(folder.number(), each, depth + 1); error != 0 && error != ENOENT)
+            return error;
     return ::unlinkat(parent, name.c_str(), AT_REMOVEDIR) == 0 ? 0 : errno;
 }
 
@@ -79,7 +82,9 @@ int copyFile(int from, const std::string& name, int to, const std::string& targe
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return errno;
         if (count == 0) break;
-        if (const int error = writeAll(file.number(), {block.data(), static_cast<std::size_t>(count)}); error != 0) return error;
+        if (const int error = writeAll(file.number(), {block.data(), static_cast<std::size_t>(count)});
+            error != 0)
+            return error;
     }
     return ::fsync(file.number()) == 0 ? 0 : errno;
 }
@@ -99,7 +104,8 @@ int copyTree(int from, const std::string& name, int to, const std::string& targe
         const bool isCopied = ::fstatat(source.number(), each.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
                               (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) && !isUnfinished(each);
         if (!isCopied) continue;
-        if (const int error = copyTree(source.number(), each, made.number(), each, depth + 1); error != 0) return error;
+        if (const int error = copyTree(source.number(), each, made.number(), each, depth + 1); error != 0)
+            return error;
     }
     return 0;
 }
@@ -137,7 +143,8 @@ int replaceIn(int folder, const std::string& name, std::string_view bytes) {
         ::unlinkat(folder, temporary.c_str(), 0);
         return error;
     }
-    const Descriptor readable(::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)); // `folder` may be a mere path
+    const Descriptor readable(
+        ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)); // `folder` may be a mere path
     if (readable.isOpen()) ::fsync(readable.number());
     return 0;
 }

@@ -63,7 +63,8 @@ ManualMotion::ManualMotion(VirtualController& controller) : controller_(controll
     Observer observer;
     observer.changed = [this](Change change, const rt::Task*) {
         if (change == Change::OperatingMode || change == Change::MotorState) {
-            const bool may = controller_.panel().mode != OperatingMode::Auto && controller_.panel().motors == MotorState::On;
+            const bool may = controller_.panel().mode != OperatingMode::Auto &&
+                             controller_.panel().motors == MotorState::On;
             if (!may) stopJogging();
         }
     };
@@ -97,7 +98,8 @@ const UnitChoice& ManualMotion::choice(const rt::MechanicalUnit& unit) const {
 
 Refusal ManualMotion::choose(const rt::MechanicalUnit& unit, UnitChoice choice) {
     motion::FrameSetup frames;
-    if (Refusal refusal = framesOf(unit, choice.tool, choice.workObject, frames); !refusal.empty()) return refusal;
+    if (Refusal refusal = framesOf(unit, choice.tool, choice.workObject, frames); !refusal.empty())
+        return refusal;
     for (const std::string& load : {choice.payload, choice.totalPayload}) {
         if (sameName(load, "load0")) continue;
         const FoundData found = findData(controller_, {taskOf(unit)->name(), {}, {}, load, {}});
@@ -109,15 +111,18 @@ Refusal ManualMotion::choose(const rt::MechanicalUnit& unit, UnitChoice choice) 
     return {};
 }
 
-Refusal ManualMotion::framesOf(const rt::MechanicalUnit& unit, const std::string& tool, const std::string& workObject,
-                               motion::FrameSetup& frames) const {
+Refusal ManualMotion::framesOf(const rt::MechanicalUnit& unit, const std::string& tool,
+                               const std::string& workObject, motion::FrameSetup& frames) const {
     const rt::Task* task = taskOf(unit);
-    const auto read = [&](const std::string& name, const char* type, std::size_t count, std::vector<double>& numbers) -> Refusal {
+    const auto read = [&](const std::string& name, const char* type, std::size_t count,
+                          std::vector<double>& numbers) -> Refusal {
         if (task == nullptr) return "there is no task";
         const FoundData found = findData(controller_, {task->name(), {}, {}, name, {}});
-        if (found.data == nullptr) return fmt::format("there is no {} {} in task {}", type, name, task->name());
+        if (found.data == nullptr)
+            return fmt::format("there is no {} {} in task {}", type, name, task->name());
         const auto text = valueOf(found);
-        if (!sameName(found.type->name, type) || !found.dims.empty() || !text) return fmt::format("{} is no {}", name, type);
+        if (!sameName(found.type->name, type) || !found.dims.empty() || !text)
+            return fmt::format("{} is no {}", name, type);
         numbers = numbersOf(*text);
         return numbers.size() < count ? fmt::format("{} has no usable value", name) : Refusal();
     };
@@ -135,7 +140,8 @@ Refusal ManualMotion::framesOf(const rt::MechanicalUnit& unit, const std::string
         frames.workObject.oframe = poseAt(numbers, 9);
     }
     if (!frames.isConsistent())
-        return fmt::format("tool {} and work object {} do not fit: the robot holds exactly one of them", tool, workObject);
+        return fmt::format("tool {} and work object {} do not fit: the robot holds exactly one of them", tool,
+                           workObject);
     return {};
 }
 
@@ -148,10 +154,12 @@ rt::Jogging& ManualMotion::joggingOf(const rt::MechanicalUnit& unit) {
 }
 
 Refusal ManualMotion::jog(const rt::MechanicalUnit& unit, rt::JogOrder order) {
-    if (controller_.panel().mode == OperatingMode::Auto) return "jogging is not possible in automatic mode: choose manual mode";
+    if (controller_.panel().mode == OperatingMode::Auto)
+        return "jogging is not possible in automatic mode: choose manual mode";
     if (controller_.panel().motors != MotorState::On) return "the motors are off: switch them on first";
     if (controller_.isRunning()) return "the program is executing: stop it first";
-    if (Refusal refusal = framesOf(unit, choice(unit).tool, choice(unit).workObject, order.frames); !refusal.empty())
+    if (Refusal refusal = framesOf(unit, choice(unit).tool, choice(unit).workObject, order.frames);
+        !refusal.empty())
         return refusal;
     if (controller_.core().motions().empty()) return "there is nothing to move";
     return joggingOf(unit).order(order);
@@ -181,7 +189,8 @@ Refusal ManualMotion::teleport(const rt::MechanicalUnit& unit, const motion::Joi
     motion::JointTarget there = system.currentJoints();
     if (unit.isRobot) {
         if (const int axis = system.kinematics().jointOutsideLimits(joints.robax); axis != 0)
-            return fmt::format("axis {} would be outside its range", system.kinematics().axisNumber(static_cast<std::size_t>(axis - 1)));
+            return fmt::format("axis {} would be outside its range",
+                               system.kinematics().axisNumber(static_cast<std::size_t>(axis - 1)));
         there.robax = joints.robax;
     }
     const motion::ExternalAxisModels& axes = system.externalAxes();

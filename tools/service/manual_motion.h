@@ -16,7 +16,7 @@ namespace rapidc::service {
 /// The choices for one mechanical unit.
 struct UnitChoice {
     std::string tool = "tool0", workObject = "wobj0", payload = "load0", totalPayload = "load0";
-    std::string jogMode = "Cartesian";     ///< AxisGroup1, AxisGroup2, Cartesian, Linear, Reorient ..
+    std::string jogMode = "Cartesian";      ///< AxisGroup1, AxisGroup2, Cartesian, Linear, Reorient ..
     std::string coordinateSystem = "World"; ///< World, Base, Tool, Wobj
     bool motionSupervision = true, pathSupervision = true, leadThrough = false;
     int motionSensitivity = 100, pathSensitivity = 100; ///< per cent
@@ -58,8 +58,9 @@ class ManualMotion {
 
     VirtualController& controller_;
     Observers::Token token_;
-    std::map<std::string, UnitChoice> choices_;                  ///< by name of the unit
-    std::map<std::size_t, std::unique_ptr<rt::Jogging>> jogging_; ///< by motion group; of the present generation
+    std::map<std::string, UnitChoice> choices_; ///< by name of the unit
+    std::map<std::size_t, std::unique_ptr<rt::Jogging>>
+        jogging_; ///< by motion group; of the present generation
     uint64_t changeCount_ = 1;
 };
 

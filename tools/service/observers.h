@@ -17,7 +17,7 @@ class Task;
 
 namespace rapidc::service {
 
-/// What has changed; the new value is read from the controller.
+/// Kind of a change; the new value is read from the controller.
 enum class Change : uint8_t {
     MotorState, ///< PanelState::motors
     OperatingMode,

@@ -14,7 +14,7 @@ class PanelOrders final : public rt::SystemOrders {
   public:
     explicit PanelOrders(VirtualController& controller) : controller_(controller) {}
 
-    /// Who writes backups: gets the folder as RAPID names it, answers why not, or "".
+    /// The writer of backups: gets the folder as RAPID names it, answers why not, or "".
     void setBackup(std::function<std::string(const std::string& folder)> write) {
         backup_ = std::move(write);
     }

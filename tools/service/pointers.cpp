@@ -46,6 +46,7 @@ std::optional<PointerPlace> beginning(VirtualController& controller, const rt::T
     for (uint32_t i = 0; i < entry->desc->statementCount; ++i) {
         const rt::StmtDesc& statement = entry->desc->statements[i];
         const bool isEarlier = first < 0 || statement.line < entry->desc->statements[first].line;
+        if (statement.canStart == rt::kCannotStart) continue; // initial values of declarations
         if (statement.previous < 0 && isEarlier) first = static_cast<int32_t>(i);
     }
     return placeOf(*entry->desc, first);

@@ -310,7 +310,7 @@ class Symbols::Collector {
         if (!query_.typeUrl.empty() && !sameName(info.typeUrl, query_.typeUrl)) return;
         found_.push_back(std::move(info));
     }
-    /// What the module declares; `recursive`: with what is inside it; `seen`: only what other modules see.
+    /// Declarations of the module; `recursive`: with what is inside it; `seen`: only what other modules see.
     void module(const ModuleView& view, bool recursive, bool seen) {
         const Reader reader(symbols_, view);
         const bool looksInside = recursive && wantsInside();
@@ -455,7 +455,7 @@ bool Symbols::search(const SymbolQuery& query, std::vector<SymbolInfo>& found) {
     return true;
 }
 
-/// What is inside a routine or a record of the module.
+/// Contents of a routine or a record of the module.
 bool Symbols::searchInside(const ModuleView& view, const std::string& name, Collector& collector) {
     const Reader reader(*this, view);
     bool isThere = false;

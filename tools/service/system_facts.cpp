@@ -16,10 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 namespace project = rapid::project;
 
-// What of RobotWare's options this controller simulates, under the names that clients look for.
+// Options of RobotWare that this controller simulates, under the names that clients look for.
 constexpr std::array<const char*, 8> kOptions = {
-    "616-1 PC Interface",     "623-1 Multitasking",         "608-1 World Zones",      "611-1 Path Recovery",
-    "610-1 Independent Axis", "689-1 Externally Guided Motion (EGM)", "612-1 Path Offset", "RobotWare Base"};
+    "616-1 PC Interface",  "623-1 Multitasking",     "608-1 World Zones",
+    "611-1 Path Recovery", "610-1 Independent Axis", "689-1 Externally Guided Motion (EGM)",
+    "612-1 Path Offset",   "RobotWare Base"};
 
 /// FNV-1a, twice: an identity that does not change from start to start.
 std::string guidOf(const std::string& text) {
@@ -27,8 +28,8 @@ std::string guidOf(const std::string& text) {
     for (uint64_t& hash : parts)
         for (const char c : text)
             hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-    return fmt::format("{{{:08X}-{:04X}-4{:03X}-A{:03X}-{:012X}}}", parts[0] >> 32, (parts[0] >> 16) & 0xFFFF, parts[0] & 0xFFF,
-                       (parts[1] >> 48) & 0xFFF, parts[1] & 0xFFFFFFFFFFFF);
+    return fmt::format("{{{:08X}-{:04X}-4{:03X}-A{:03X}-{:012X}}}", parts[0] >> 32, (parts[0] >> 16) & 0xFFFF,
+                       parts[0] & 0xFFF, (parts[1] >> 48) & 0xFFF, parts[1] & 0xFFFFFFFFFFFF);
 }
 
 } // namespace
@@ -45,17 +46,20 @@ SystemFacts systemFacts(VirtualController& controller) {
     rt::Controller& core = controller.core();
     for (const std::string& path : controller.settings().inputs.paths) {
         std::string bytes;
-        const fs::path info = project::isFolder(path) ? project::findPath(path, "BACKINFO/backinfo.txt") : fs::path();
+        const fs::path info =
+            project::isFolder(path) ? project::findPath(path, "BACKINFO/backinfo.txt") : fs::path();
         if (info.empty() || !rapid::config::readFile(info.string(), bytes).empty()) continue;
         const project::BackupInfo backup = project::readBackupInfo(bytes);
         if (!backup.systemId.empty()) facts.name = backup.systemId;
         facts.options = backup.options;
+        facts.addIns = backup.addIns;
         break;
     }
     for (const rt::CfgInstance* option : core.instances("SYS", "PRESENT_OPTIONS"))
         if (option != nullptr) {
             const std::string text = option->text("desc", option->text("name"));
-            if (!text.empty() && std::find(facts.options.begin(), facts.options.end(), text) == facts.options.end())
+            if (!text.empty() &&
+                std::find(facts.options.begin(), facts.options.end(), text) == facts.options.end())
                 facts.options.push_back(text);
         }
     if (facts.options.empty()) facts.options.assign(kOptions.begin(), kOptions.end());

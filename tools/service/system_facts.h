@@ -18,11 +18,13 @@ struct RobotWareVersion {
 RobotWareVersion robotWareVersion(int robotWare);
 
 struct SystemFacts {
-    std::string name;                 ///< of a backup's system, or "rapidc"
-    std::string id;                   ///< a GUID in braces, the same for the same name
-    std::vector<std::string> options; ///< RobotWare options: of the backup, of PRESENT_OPTIONS, or those that are simulated
-    std::string robotType;            ///< of the first robot: "IRB 120-3/0.58"
-    int64_t startSeconds = 0;         ///< when the controller started, its clock
+    std::string name; ///< of a backup's system, or "rapidc"
+    std::string id;   ///< a GUID in braces, the same for the same name
+    std::vector<std::string>
+        options; ///< RobotWare options: of the backup, of PRESENT_OPTIONS, or those that are simulated
+    std::vector<std::string> addIns; ///< of the backup: "PartTracker Add-In 2.1.0"
+    std::string robotType;           ///< of the first robot: "IRB 120-3/0.58"
+    int64_t startSeconds = 0;        ///< when the controller started, its clock
 };
 /// Of the controller as it is now. On its thread.
 SystemFacts systemFacts(VirtualController& controller);

@@ -6,9 +6,11 @@
 #include "runtime/host/panel_switches.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/host/system_orders.h"
+#include "tools/program/run_setup.h"
 #include "tools/service/panel_orders.h"
 
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
@@ -64,10 +66,29 @@ rt::ExitStatus VirtualController::open() {
         return status;
     }
     printDiagnostics(program_->compilation());
+    if (const std::string problem = openHome(); !problem.empty()) {
+        fmt::print(stderr, "{}\n", problem);
+        return rt::ExitStatus::BadUsage;
+    }
     panel_.motors = settings_.programStart ? MotorState::On : MotorState::Off;
     Succession first;
     first.programStart = first.motorsOn = settings_.programStart;
     return makeCore(first);
+}
+
+/// Without --home: an empty folder, or a copy of the HOME of a backup, so that the backup stays as it is.
+std::string VirtualController::openHome() {
+    if (!settings_.options.home.empty()) return {};
+    const std::string& from = program_->compilation().homeFolder;
+    std::string error;
+    if (!from.empty()) {
+        settings_.options.home = copyHome(from, home_, error);
+        return error;
+    }
+    if (const int problem = home_.make("home"); problem != 0)
+        return fmt::format("cannot make a folder for HOME: {}", std::strerror(problem));
+    settings_.options.home = home_.path();
+    return {};
 }
 
 rt::ExitStatus VirtualController::makeCore(const Succession& how) {
@@ -232,7 +253,8 @@ Refusal VirtualController::restore(const std::string& backup) {
     std::error_code code;
     if (!home.empty() && std::filesystem::is_directory(backup + "/HOME", code))
         std::filesystem::copy(backup + "/HOME", home,
-                              std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing |
+                              std::filesystem::copy_options::recursive |
+                                  std::filesystem::copy_options::overwrite_existing |
                                   std::filesystem::copy_options::skip_symlinks,
                               code);
     if (code) fmt::print(stderr, "HOME of the backup: {}\n", code.message());

@@ -2,6 +2,7 @@
 // VirtualController: a controller that lives long: it loads, starts, stops, restarts, and notifies its observers. `rapidc serve` and the
 // web page sit on it. One thread (run) executes RAPID and everything else here; other threads only post().
 
+#include "config/temporary.h"
 #include "runtime/host/controller.h"
 #include "runtime/host/module_loader.h"
 #include "runtime/sched/inbox.h"
@@ -141,7 +142,7 @@ class VirtualController {
     bool isTimeRunning() const { return timeRunning_; }
 
   private:
-    /// What replaces the present controller.
+    /// Replacement of the present controller.
     struct Succession {
         std::unique_ptr<LoadedProgram> program; ///< null: the same
         std::string state;                      ///< "" = everything begins anew
@@ -164,10 +165,12 @@ class VirtualController {
     Refusal programStopped(const char* order) const;
     void applyPanel();
     void switchCycle(const char* change);
+    std::string openHome();
     void carryOutCursor();
     void everyFourMilliseconds();
 
     Settings settings_;
+    rapid::config::TemporaryFolder home_; ///< HOME when none was given: it outlives restarts
     rt::Inbox inbox_;
     Observers observers_;
     PanelState panel_;

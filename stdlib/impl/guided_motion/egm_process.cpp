@@ -1,5 +1,7 @@
 #include "stdlib/impl/guided_motion/egm_process.h"
 
+#include "stdlib/impl/guided_motion/udp_devices.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -393,6 +395,7 @@ void EgmProcesses::open(Controller& controller) {
     controller.onShutDown([this] {
         for (auto& [handle, process] : processes_)
             process->lose();
+        controller_->service<UdpDevices>().closeAll();
     });
 }
 

@@ -199,8 +199,9 @@ Status rt_EGMSetupUC(TaskCore* task, Handle* MecUnit, Handle* EGMid, const Strin
             net::Address address;
             uint16_t localPort = 0;
             if (const Status status = addressOf(task, *device, address, localPort)) return status;
-            partner = std::make_unique<lib::UdpPartner>(lib::Sockets::of(owner.controller()).network(), owner,
-                                                        device->text("name"), address, localPort, mode);
+            partner = std::make_unique<lib::UdpPartner>(
+                lib::Sockets::of(owner.controller()).network(), owner.controller().service<lib::UdpDevices>(),
+                owner, lib::UdpDevice{device->text("name"), address, localPort}, mode);
             return kOk;
         });
 }

@@ -10,20 +10,21 @@
 
 namespace rt::lib {
 
-UdpPartner::UdpPartner(net::Network& network, const Task& owner, std::string device,
-                       const net::Address& address, uint16_t localPort, GuidanceMode mode)
-    : network_(network), owner_(owner), device_(std::move(device)), address_(address), localPort_(localPort),
-      mode_(mode) {}
+UdpPartner::UdpPartner(net::Network& network, UdpDevices& devices, const Task& owner, UdpDevice device,
+                       GuidanceMode mode)
+    : network_(network), devices_(devices), owner_(owner), device_(std::move(device)), mode_(mode) {}
 
 void UdpPartner::begin() {
-    socket_ = std::make_unique<net::Socket>(network_, owner_, true);
+    std::string why;
+    socket_ = devices_.take(network_, owner_, device_, why);
     sequence_ = 0;
     refused_ = {};
-    if (localPort_ != 0) {
-        const net::Outcome outcome = socket_->bind({net::kAnyAddress, localPort_});
-        if (!outcome.ok()) refuse("its local port cannot be used: " + outcome.why);
-    }
-    (void)socket_->connect(address_); // of datagrams: those of others do not count
+    if (!why.empty()) refuse("its local port cannot be used: " + why);
+}
+
+void UdpPartner::end() {
+    if (socket_) socket_->rest();
+    socket_.reset();
 }
 
 /// All that has come, one socket's room at most.
@@ -36,7 +37,7 @@ bool UdpPartner::receive(SensorData& data) {
         isNew = take(datagram, data) || isNew;
     if (const auto sender = socket_->takeForeign())
         refuse(fmt::format("a datagram came from {} and not from {}", net::addressText(*sender),
-                           net::addressText(address_)));
+                           net::addressText(device_.address)));
     return isNew;
 }
 
@@ -61,7 +62,7 @@ bool UdpPartner::take(const net::Datagram& datagram, SensorData& data) {
 
 std::string UdpPartner::send(const RobotData& data) {
     if (!socket_) return {};
-    const net::Outcome outcome = socket_->sendTo(encodeRobotMessage(data, sequence_), address_);
+    const net::Outcome outcome = socket_->sendTo(encodeRobotMessage(data, sequence_), device_.address);
     if (!outcome.ok()) return outcome.why;
     ++sequence_;
     return {};
@@ -70,7 +71,7 @@ std::string UdpPartner::send(const RobotData& data) {
 /// One event for a burst.
 void UdpPartner::refuse(const std::string& why) {
     if (!refused_.begins(network_.scheduler().now())) return;
-    network_.log().write(EventId::EgmDataRefused, &owner_, {device_, why});
+    network_.log().write(EventId::EgmDataRefused, &owner_, {device_.name, why});
 }
 
 } // namespace rt::lib

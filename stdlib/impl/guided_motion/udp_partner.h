@@ -4,6 +4,7 @@
 
 #include "stdlib/impl/guided_motion/event_burst.h"
 #include "stdlib/impl/guided_motion/partner.h"
+#include "stdlib/impl/guided_motion/udp_devices.h"
 
 #include "runtime/net/socket.h"
 
@@ -13,12 +14,12 @@ namespace rt::lib {
 
 class UdpPartner final : public Partner {
   public:
-    UdpPartner(net::Network& network, const Task& owner, std::string device, const net::Address& address,
-               uint16_t localPort, GuidanceMode mode);
-    std::string name() const override { return device_; }
-    const net::Address& address() const { return address_; }
+    UdpPartner(net::Network& network, UdpDevices& devices, const Task& owner, UdpDevice device,
+               GuidanceMode mode);
+    ~UdpPartner() override { end(); }
+    std::string name() const override { return device_.name; }
     void begin() override;
-    void end() override { socket_.reset(); }
+    void end() override;
     bool receive(SensorData& data) override;
     std::string send(const RobotData& data) override;
     bool answers() const override { return true; }
@@ -28,12 +29,11 @@ class UdpPartner final : public Partner {
     void refuse(const std::string& why);
 
     net::Network& network_;
+    UdpDevices& devices_;
     const Task& owner_;
-    std::string device_;
-    net::Address address_;
-    uint16_t localPort_;
+    UdpDevice device_;
     GuidanceMode mode_;
-    std::unique_ptr<net::Socket> socket_; ///< during a session
+    std::shared_ptr<net::Socket> socket_; ///< during a session
     uint32_t sequence_ = 0;
     EventBurst refused_;
 };

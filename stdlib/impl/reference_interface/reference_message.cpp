@@ -33,7 +33,7 @@ void addLeaves(void* data, const TypeDesc& type, std::vector<Leaf>& leaves) {
         leaves.push_back({data, &type});
 }
 
-/// The n-th component of a record; data that are no record are a single component.
+/// The n-th component of a record; data of other types are a single component.
 std::vector<Leaf> component(void* data, const TypeDesc& type, uint32_t n) {
     std::vector<Leaf> leaves;
     if (type.kind != DescKind::Record) {

@@ -11,7 +11,7 @@
 
 namespace rt::lib {
 
-/// What the controller knows when a message leaves; the state of the arm is missing in a task without one.
+/// State of the controller when a message leaves; the state of the arm is missing in a task without one.
 struct InternState {
     std::string operationMode;
     double seconds = 0; ///< virtual time

@@ -1,4 +1,4 @@
-"""What the partners of the tests do: each takes a Peer, talks with the robot until it is silent, and prints what it saw."""
+"""The partners of the tests: each takes a Peer, talks with the robot until it is silent, and prints what it saw."""
 
 import math
 import socket
@@ -14,7 +14,7 @@ def axis_1(angle):
 
 
 def sine(peer):
-    """Lets axis 1 swing by 10 degrees once in two seconds of the robot's time, then stand at 5 degrees."""
+    """Lets axis 1 swing by 10 degrees once in two seconds of the robot's time, then stay at 5 degrees."""
     reached, numbers = [], []
     for message in peer.messages():
         numbers.append(message["header"]["seqno"])
@@ -85,15 +85,16 @@ def close(q, orient):
 
 def sessions(peer):
     """Counts the messages of each session, and looks whether they are numbered from 0 by one."""
-    counts, in_order = [], True
+    counts, in_order, ports = [], True, set()
     for message in peer.messages():
+        ports.add(peer.robot)
         number = message["header"]["seqno"]
         if number == 0:
             counts.append(0)
         in_order = in_order and number == counts[-1]
         counts[-1] += 1
         peer.send(axis_1(0))
-    print("sessions", len(counts), "in order", in_order, "none empty", min(counts) > 0)
+    print("sessions", len(counts), "in order", in_order, "none empty", min(counts) > 0, "one port", len(ports) == 1)
 
 
 BAD = {
@@ -203,7 +204,7 @@ def speed(peer):
 
 
 def stopped(peer):
-    """The program is stopped and started again meanwhile: messages continue, and the robot stands."""
+    """The program is stopped and started again meanwhile: messages continue, and the robot is at rest."""
     seen = []
     for message in peer.messages():
         time = message["header"]["tm"]
@@ -213,7 +214,7 @@ def stopped(peer):
     print("execution and motors", states)
     print("each 4 ms", {b[0] - a[0] for a, b in zip(seen, seen[1:])} == {4})
     standing = [angle for time, state, motors, angle in seen if state == 1][50:]
-    print("stands", len(standing) > 50 and max(standing) - min(standing) < 1e-9)
+    print("at rest", len(standing) > 50 and max(standing) - min(standing) < 1e-9)
     print("moves on", seen[-1][3] > standing[-1] + 1)
 
 

@@ -1,5 +1,7 @@
 #include "tests/unit/codegen/fake_runtime.h"
 
+#include "runtime/abi/interpreted.h"
+
 #include <catch2/catch.hpp>
 
 #include "ir/passes/passes.h"
@@ -133,6 +135,7 @@ std::vector<codegen::NativeSymbol> symbols() {
             symbol("rt_takesError", takesError),
             symbol("rt_retry", retry),
             symbol("rt_stackOverflow", stackOverflow),
+            symbol("rt_interpret", rt_interpret),
             symbol("rt_note", noteNumber),
             symbol("rt_fallible", fallible),
             symbol("rt_pure", hypotenuse),
@@ -143,11 +146,12 @@ std::vector<codegen::NativeSymbol> symbols() {
             symbol("rt_plain", nothing)};
 }
 
-std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise) {
+std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise, bool interpreted) {
     for (const std::string& finding : ir::runPasses(module, {}))
         FAIL(finding);
     codegen::CodegenOptions options;
     options.optimise = optimise;
+    options.interpretsAll = interpreted;
     std::string error;
     auto program = codegen::jit(module, options, symbols(), error);
     INFO(error);

@@ -25,8 +25,10 @@ struct Task {
 /// The addresses of the fake runtime.
 std::vector<codegen::NativeSymbol> symbols();
 
-/// Runs all passes and compiles. Fails the test when something is wrong.
-std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise = true);
+/// Runs all passes and compiles. Fails the test when something is wrong. `interpreted`: every routine is; it must not call the
+/// runtime then, since the interpreter calls the real one.
+std::unique_ptr<codegen::JitProgram> compile(ir::Module module, bool optimise = true,
+                                             bool interpreted = false);
 
 /// C entry of an exported routine.
 void* entry(const codegen::JitProgram& program, const std::string& name);

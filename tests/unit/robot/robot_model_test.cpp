@@ -204,3 +204,11 @@ TEST_CASE("a data file that is wrong is refused with the field at fault", "[robo
     CHECK_FALSE(parseRobotModel("[]", "array").hasValue());
     CHECK_FALSE(parseRobotModel("null", "null").hasValue());
 }
+
+TEST_CASE("a robot that is not in the catalogue is like one of its family, reach and payload", "[robot]") {
+    CHECK(robot::similarRobotModel("ROB1_121_0.60_3") == "IRB 120-3/0.58");
+    CHECK(robot::similarRobotModel("ROB1_360_1.6_6") == "IRB 360-1/1600");
+    CHECK(robot::similarRobotModel("IRB 1200-5/0.95") == "IRB 1200-5/0.9");
+    CHECK(robot::similarRobotModel("ROB1_99999_9.9_9").empty());
+    CHECK(robot::similarRobotModel("").empty());
+}

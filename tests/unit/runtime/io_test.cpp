@@ -202,3 +202,24 @@ TEST_CASE("listeners may remove themselves and add others while they are called"
     bench.io.set(bench.handle("do1"), 0);
     CHECK(calls == 11);
 }
+
+TEST_CASE("a simulated input keeps the client's value until the simulation ends", "[io]") {
+    Bench bench(kBasic + "#\n\nEIO_CROSS:\n\n      -Name \"c\" -Res \"di1\" -Act1 \"do1\"\n");
+    const SignalId input = bench.io.find("di1");
+    bench.io.simulate(input, true);
+    CHECK(bench.io.isSimulated(input));
+    CHECK(bench.io.set(bench.handle("do1"), 1) == IoResult::Ok);
+    CHECK(bench.value("di1") == 0); // its cross connection does not count
+    CHECK(bench.io.setByClient(input, 1) == IoResult::Ok);
+    CHECK(bench.io.setByClient(input, 0) == IoResult::Ok);
+    CHECK(bench.value("di1") == 0);
+    bench.io.simulate(input, false);
+    CHECK(bench.value("di1") == 1); // what the plant says
+
+    const SignalId output = bench.io.find("do2");
+    bench.io.simulate(output, true);
+    CHECK(bench.io.set(bench.handle("do2"), 0) == IoResult::Ok); // programs still set it
+    CHECK(bench.value("do2") == 0);
+    bench.io.simulate(output, false);
+    CHECK(bench.value("do2") == 0);
+}

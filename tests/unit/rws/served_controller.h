@@ -17,6 +17,48 @@ namespace rapidc::rws {
 
 using FieldList = std::vector<std::pair<std::string, std::string>>;
 
+inline constexpr const char* kProgram = R"(MODULE Main1
+   RECORD part
+      string name;
+      pos place;
+   ENDRECORD
+   CONST num size := 3;
+   PERS num count := 5;
+   PERS string text := "abc";
+   VAR bool flag := TRUE;
+   LOCAL VAR num list{size} := [1,2,3];
+   VAR num grid{2,3} := [[1,2,3],[4,5,6]];
+   VAR part one := ["x",[1,2,3]];
+   PERS robtarget p10 := [[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];
+   PROC main()
+      VAR num inner;
+      inner := 1;
+      count := inner + 4;
+      work;
+      Stop;
+   ENDPROC
+   PROC work()
+      flag := FALSE;
+      flag := TRUE;
+   ENDPROC
+   FUNC num twice(num value)
+      RETURN 2 * value;
+   ENDFUNC
+ENDMODULE
+)";
+
+inline const FieldList kModules{{"Main1.mod", kProgram}};
+inline constexpr Dialect kOld = Dialect::V1, kNew = Dialect::V2;
+
+inline std::string dataPath(Dialect dialect, const std::string& symbol) {
+    return dialect == kOld ? "/rw/rapid/symbol/data/RAPID/" + symbol
+                           : "/rw/rapid/symbol/RAPID/" + symbol + "/data";
+}
+inline std::string propertiesPath(Dialect dialect, const std::string& symbol) {
+    return dialect == kOld ? "/rw/rapid/symbol/properties/RAPID/" + symbol
+                           : "/rw/rapid/symbol/RAPID/" + symbol + "/properties";
+}
+
 class ServedController {
   public:
     /// `modules`: name of the file and text.

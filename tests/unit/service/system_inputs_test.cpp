@@ -197,9 +197,9 @@ TEST_CASE("an emergency stop keeps its output until its reset is confirmed", "[s
 }
 
 TEST_CASE("in manual mode system inputs start nothing", "[service]") {
+    bool refused = false;
     Wired wired;
     CHECK(wired.ask([](VirtualController& c) { return c.setMode(OperatingMode::ManualReduced); }).empty());
-    bool refused = false;
     wired.ask([&](VirtualController& c) {
         return c.core().log().addListener([&](const rt::Event& event) {
             refused = refused || event.number == static_cast<int>(rt::EventId::SystemInputRefused);
@@ -227,8 +227,8 @@ TEST_CASE("a system input loads a program and starts it", "[service]") {
 }
 
 TEST_CASE("a backup is written by whoever writes backups", "[service]") {
-    Wired wired;
     std::string folder;
+    Wired wired;
     wired.ask([&](VirtualController& c) {
         c.panelOrders().setBackup([&](const std::string& name) {
             folder = name;
@@ -241,8 +241,8 @@ TEST_CASE("a backup is written by whoever writes backups", "[service]") {
 }
 
 TEST_CASE("a restart by a system input happens once", "[service]") {
-    Wired wired;
     int restarts = 0;
+    Wired wired;
     Observer observer;
     observer.changed = [&](Change change, const rt::Task*) {
         restarts += change == Change::Generation ? 1 : 0;

@@ -9,8 +9,8 @@
 #include "runtime/host/module_units.h"
 #include "runtime/host/unit_compiler.h"
 #include "stdlib/native_table.h"
-#include "tools/rapidc/dap/expression_names.h"
 #include "tools/program/native_library.h"
+#include "tools/rapidc/dap/expression_names.h"
 
 #include <algorithm>
 #include <dlfcn.h>

@@ -20,7 +20,7 @@ class ProgramOutput {
 
   private:
     void show(const rt::Event& event);
-    /// What a dialog with the operator shows, in pieces.
+    /// The text of a dialog with the operator, in pieces.
     void takeDialog(std::string_view text);
     static ssize_t writeDialog(void* output, const char* bytes, std::size_t size);
 

@@ -30,7 +30,7 @@ struct ServeSettings {
 /// Adds the options of `run` that a controller has, and those of its servers.
 void addServeOptions(const rt::Command& command, ServeSettings& settings);
 
-/// What has to hold before the controller is made: volumes are folders, other computers need a password. "" or what is wrong.
+/// Checks the settings before the controller is made: volumes are folders, other computers need a password. "" or what is wrong.
 /// `folders` keeps the temporary ones as long as the controller lives.
 std::string complete(ServeSettings& settings,
                      std::vector<std::unique_ptr<rapid::config::TemporaryFolder>>& folders);

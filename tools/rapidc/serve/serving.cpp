@@ -1,7 +1,7 @@
 #include "tools/rapidc/serve/serving.h"
 
 #include "tools/http/tls.h"
-#include "tools/rws/roots.h"
+#include "tools/rws/folders.h"
 
 #include <chrono>
 #include <cstdio>
@@ -11,17 +11,20 @@ namespace rapidc::serve {
 
 Serving::Serving(const ServeSettings& settings, service::VirtualController& controller)
     : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
-      subscriptions_(subscribables_,
-                     [this](std::function<void()> work) { controller_.post(std::move(work)); }),
-      pendant_({controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
-               {.files = pendant::builtPage(), .password = settings.password, .address = settings.address}) {
-    rws::addRoots(router_);
+      subscriptions_(
+          subscribables_, [this](std::function<void()> work) { controller_.post(std::move(work)); },
+          [this](std::function<void()> work) { server_.post(std::move(work)); }),
+      pendant_(
+          {controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
+          {.password = settings.password, .address = settings.address}) {
+    rws::addFolders(router_); // first: services may describe their folder themselves
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
     subscriptions_.addTo(router_);
     rws::FrontDoorSettings door;
     door.password = settings.password;
     door.postToController = [this](std::function<void()> work) { controller_.post(std::move(work)); };
+    door.postToNetwork = [this](std::function<void()> work) { server_.post(std::move(work)); };
     door.sessionEnded = [this](uint64_t session) {
         controller_.post([this, session] {
             subscriptions_.sessionEnded(session);
@@ -62,7 +65,8 @@ std::string Serving::open() {
                           .service = &door_->service(rws::Dialect::V2)},
                          httpsPort_);
     if (problem.empty())
-        problem = listen("--web-port", {.address = address, .port = settings_.webPort, .service = &pendant_}, webPort_);
+        problem = listen("--web-port", {.address = address, .port = settings_.webPort, .service = &pendant_},
+                         webPort_);
     pendant_.setPort(webPort_);
     return problem;
 }
@@ -71,8 +75,10 @@ void Serving::start() {
     server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
     server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
     server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
-    server_.start();
     const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
+    subscriptions_.setBase(rws::Dialect::V1, fmt::format("http://{}:{}", host, httpPort_));
+    subscriptions_.setBase(rws::Dialect::V2, fmt::format("https://{}:{}", host, httpsPort_));
+    server_.start();
     fmt::print("{{\"http\":\"http://{0}:{1}\",\"https\":\"https://{0}:{2}\",\"web\":\"http://{0}:{3}\"}}\n",
                host, httpPort_, httpsPort_, webPort_);
     std::fflush(stdout);

@@ -5,11 +5,12 @@ import type { Body, Pose, Solid, Unit } from "../api/protocol";
 import { matrixOf, metres, quaternionOf, vectorOf } from "../math/pose";
 import { frameAxes } from "./frames";
 import type { Palette } from "./palette";
+import { drawsInSoftware } from "./software";
 
 const upward = new Vector3(0, 1, 0); // three.js builds capsules and cylinders along y
 const degree = Math.PI / 180;
 
-type Material = MeshStandardMaterial | MeshLambertMaterial;
+type BodyMaterial = MeshStandardMaterial | MeshLambertMaterial;
 
 interface Rod {
     mesh: Mesh;
@@ -28,13 +29,12 @@ export class Arm {
     readonly tcp = new Vector3();
     private readonly bodies: Group[] = [];
     private readonly rods: Rod[] = [];
-    private readonly materials: Record<string, Material>;
+    private readonly materials: Record<string, BodyMaterial>;
     private tool: Group | null = null;
     private readonly motion = new Matrix4();
     private readonly origins: Matrix4[] = [];
 
-    /** @param plain surfaces without gloss, for computers that draw in software */
-    constructor(private readonly unit: Unit, colours: Palette, private readonly plain: boolean, private readonly ghost = false) {
+    constructor(private readonly unit: Unit, colours: Palette, private readonly ghost = false) {
         this.materials = this.makeMaterials(colours);
         matrixOf(unit.base, this.group.matrix);
         this.group.matrixAutoUpdate = false;
@@ -45,7 +45,7 @@ export class Arm {
 
     setColours(colours: Palette): void {
         const next = this.makeMaterials(colours);
-        for (const [role, material] of Object.entries(this.materials)) material.color.copy((next[role] as Material).color);
+        for (const [role, material] of Object.entries(this.materials)) material.color.copy((next[role] as BodyMaterial).color);
     }
 
     setTool(pose: Pose): void {
@@ -96,13 +96,18 @@ export class Arm {
         return this.motion.makeTranslation(x * value * metres, y * value * metres, z * value * metres);
     }
 
-    private makeMaterials(colours: Palette): Record<string, Material> {
+    private makeMaterials(colours: Palette): Record<string, BodyMaterial> {
         const roles: Record<string, Color> = { arm: colours.arm, joint: colours.joint, flange: colours.flange, tool: colours.tool };
-        const made: Record<string, Material> = {};
+        const made: Record<string, BodyMaterial> = {};
         for (const [role, colour] of Object.entries(roles)) {
-            const surface = { color: this.ghost ? colours.ghost : colour, transparent: this.ghost, opacity: this.ghost ? 0.35 : 1, depthWrite: !this.ghost };
-            const gloss = { roughness: role === "arm" ? 0.5 : 0.4, metalness: role === "flange" ? 0.5 : 0.05 };
-            made[role] = this.plain ? new MeshLambertMaterial(surface) : new MeshStandardMaterial({ ...surface, ...gloss });
+            const common = {
+                color: this.ghost ? colours.ghost : colour,
+                transparent: this.ghost,
+                opacity: this.ghost ? 0.35 : 1,
+                depthWrite: !this.ghost,
+            };
+            const shine = { roughness: role === "arm" ? 0.5 : 0.4, metalness: role === "flange" ? 0.5 : 0.05 };
+            made[role] = drawsInSoftware ? new MeshLambertMaterial(common) : new MeshStandardMaterial({ ...common, ...shine });
         }
         return made;
     }
@@ -139,8 +144,8 @@ export class Arm {
         group.add(this.between(from, vectorOf(solid.to), radius, role, solid.kind === "capsule"));
     }
 
-    private material(role: string): Material {
-        return this.materials[role] ?? (this.materials.arm as Material);
+    private material(role: string): BodyMaterial {
+        return this.materials[role] ?? (this.materials.arm as BodyMaterial);
     }
 
     private between(from: Vector3, to: Vector3, radius: number, role: string, round = false): Mesh {

@@ -42,10 +42,9 @@ export class RobotView {
 
     build(state: State): void {
         for (const robot of this.robots.splice(0)) this.remove(robot);
-        const { stage } = this;
-        const { colours } = stage;
+        const { colours } = this.stage;
         for (const unit of state.units) {
-            const arm = new Arm(unit, colours, stage.software);
+            const arm = new Arm(unit, colours);
             const path = new PathLine(pathPoints, colours.past, colours.fast);
             const material = new LineDashedMaterial({ color: colours.planned, dashSize: 0.02, gapSize: 0.012 });
             const planned = new Line(new BufferGeometry(), material);
@@ -96,7 +95,7 @@ export class RobotView {
             robot.ghost = null;
         } else {
             if (!robot.ghost) {
-                robot.ghost = new Arm(unit, this.stage.colours, this.stage.software, true);
+                robot.ghost = new Arm(unit, this.stage.colours, true);
                 this.stage.content.add(robot.ghost.group);
             }
             robot.ghost.setPose(joints, flange);

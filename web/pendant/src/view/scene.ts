@@ -4,20 +4,13 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { frameAxes } from "./frames";
 import { palette, type Palette } from "./palette";
+import { drawsInSoftware } from "./software";
 
-const slowFrame = 45; // ms; above it the picture gets coarser
-const fastFrame = 18; // ms; below it finer again
+const slowFrame = 55; // ms from one picture to the next; above it the picture gets coarser
+const fastFrame = 20; // ms; below it finer again
 const coarsest = 0.6;
-const restAfter = 500; // ms without a new frame; then the picture is drawn once in full resolution
-
-/** Whether this computer draws WebGL with its processor: then smooth edges and glossy surfaces cost too much. */
-function drawsInSoftware(): boolean {
-    const context = document.createElement("canvas").getContext("webgl2");
-    const info = context?.getExtension("WEBGL_debug_renderer_info");
-    const name = context && info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-    context?.getExtension("WEBGL_lose_context")?.loseContext();
-    return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}
+const stillAfter = 500; // ms without a change
+const stillRatio = 2; // pixels drawn for each shown in a picture at rest: smooth edges in software, too
 
 /**
  * Renderer, camera, lights and floor. Draws only when something has changed, at most once per frame of the screen, and
@@ -28,8 +21,7 @@ export class Stage {
     readonly camera = new PerspectiveCamera(38, 1, 0.02, 200);
     readonly content = new Group();
     readonly controls: OrbitControls;
-    readonly software = drawsInSoftware();
-    /** time from one frame to the next while it draws, in ms, smoothed */
+    /** time from one picture to the next in ms while there is movement, smoothed */
     frameTime = 16;
     frames = 0;
     /** before each frame */
@@ -42,12 +34,12 @@ export class Stage {
     private ratio = Math.min(window.devicePixelRatio, 2);
     private readonly finest = Math.min(window.devicePixelRatio, 2);
     private sinceChange = 0;
-    private resting = false;
-    private rest = 0;
+    private stillTimer = 0;
+    private isStill = false;
     colours: Palette = palette();
 
     constructor(readonly canvas: HTMLCanvasElement) {
-        this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, powerPreference: "high-performance" });
+        this.renderer = new WebGLRenderer({ canvas, antialias: !drawsInSoftware, powerPreference: "high-performance" });
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.screenSpacePanning = true;
@@ -95,7 +87,8 @@ export class Stage {
     resize(): void {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         if (width === 0 || height === 0) return;
-        this.setRatio(this.ratio);
+        this.isStill = false;
+        this.setSize(this.ratio);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
         this.draw();
@@ -104,52 +97,48 @@ export class Stage {
     draw(): void {
         if (this.asked) return;
         this.asked = true;
-        requestAnimationFrame(() => {
+        requestAnimationFrame((time) => {
             this.asked = false;
+            if (this.isStill) this.resize();
             this.render();
+            // the graphics processor works on its own: the time until the browser offers the next frame shows how long it takes
+            requestAnimationFrame((next) => this.measure(next - time));
+            if (!drawsInSoftware) return;
+            clearTimeout(this.stillTimer);
+            this.stillTimer = window.setTimeout(() => this.drawStill(), stillAfter);
         });
     }
 
+    private setSize(ratio: number): void {
+        this.renderer.setPixelRatio(ratio);
+        this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+    }
+
+    /** Nothing moves: one fine picture. */
+    private drawStill(): void {
+        if (this.asked || this.isStill || this.canvas.clientWidth === 0) return;
+        this.isStill = true;
+        this.setSize(stillRatio);
+        this.render();
+    }
+
     private render(): void {
-        if (this.resting) {
-            this.resting = false;
-            this.setRatio(this.ratio);
-        }
-        clearTimeout(this.rest);
-        this.rest = window.setTimeout(() => this.renderAtRest(), restAfter);
         this.onFrame();
         this.renderer.render(this.scene, this.camera);
         this.onDrawn();
-        // the graphics processor works on its own: only the time until the browser offers the next frame shows how long it takes
-        const started = performance.now();
-        requestAnimationFrame(() => this.measure(performance.now() - started));
-    }
-
-    /** One picture without haste. */
-    private renderAtRest(): void {
-        if (this.finest <= this.ratio) return;
-        this.resting = true;
-        this.setRatio(this.finest);
-        this.renderer.render(this.scene, this.camera);
-    }
-
-    private setRatio(ratio: number): void {
-        const { clientWidth: width, clientHeight: height } = this.canvas;
-        if (width === 0 || height === 0) return;
-        this.renderer.setPixelRatio(ratio);
-        this.renderer.setSize(width, height, false);
     }
 
     private measure(duration: number): void {
         this.frames += 1;
-        this.frameTime += (duration - this.frameTime) * 0.25;
+        this.frameTime += (duration - this.frameTime) * 0.2;
         this.sinceChange += 1;
-        if (this.sinceChange < (this.frameTime > 2 * slowFrame ? 4 : 20)) return;
+        const slow = this.frameTime > 2 * slowFrame;
+        if (this.sinceChange < (slow ? 5 : 25)) return;
         this.sinceChange = 0;
         let wanted = this.ratio;
-        if (this.frameTime > slowFrame) wanted = Math.max(coarsest, this.ratio * (this.frameTime > 2 * slowFrame ? 0.7 : 0.85));
+        if (this.frameTime > slowFrame) wanted = Math.max(coarsest, this.ratio * (slow ? 0.7 : 0.85));
         else if (this.frameTime < fastFrame) wanted = Math.min(this.finest, this.ratio * 1.1);
-        if (Math.abs(wanted - this.ratio) < 0.04) return;
+        if (Math.abs(wanted - this.ratio) < 0.05) return;
         this.ratio = wanted;
         this.resize();
     }

@@ -1,0 +1,52 @@
+"""/users and /uas (contract 8, 22; controller.md 2.3, 8)."""
+
+from rapid_testing import RapidCase
+from serve_testing import main
+
+
+class Users(RapidCase):
+    def test_registration(self):
+        """controller.md 8: POST /users must answer 200 or 201."""
+        form = {"username": "me", "application": "app", "location": "here", "ulocale": "local"}
+        for client in self.both():
+            self.assertIn(client.post("/users", form).status, (200, 201))
+            self.assertEqual(client.get("/users").status, 200)
+        client = self.client(2)
+        client.post("/users", form)
+        found = client.get("/users/login-info").values("user-login-info")
+        self.assertEqual([found[f"user-{name}"] for name in ("alias", "name", "locale", "application", "location")],
+                         ["me", "Default User", "local", "app", "here"])
+        self.assertEqual(client.post("/users", {"username": "x" * 81}).status, 400)
+        self.assertIn(client.post("/users/register", form).status, (200, 201, 204))
+
+    def test_grants(self):
+        """Contract 8: all grants, in both dialects; 22: user-grant | uas-grant, grant-info."""
+        names = [entry.title for entry in self.client(1).get("/users/grants").entries("user-grant")]
+        self.assertIn("UAS_FULL_ACCESS", names)
+        client = self.client(2)
+        self.assertEqual([entry.values["grantname"] for entry in client.get("/uas/user/grants").entries("uas-grant")], names)
+        self.assertEqual([entry.values["grant-name"] for entry in client.get("/uas/grants").entries("grant-info")], names)
+        self.assertEqual(client.get("/users/grant-exists?grant=UAS_BACKUP").values("user-grant-status")["status"], "true")
+        self.assertEqual(client.get("/users/grant-exists?grant=NONE").status, 400)
+        self.assertEqual(client.get("/uas/ldap").entries(), [])
+        self.assertEqual(client.get("/uas/user/password-change-allow").values()["status"], "false")
+        self.assertEqual(client.post("/uas/user/password", {"old-password": "robotics", "new-password": "x"}).status, 403)
+        self.in_all_forms("/users/grants", "/uas/grants")
+
+    def test_privilege(self):
+        """Contract 22: /users/rmmp: privilege; /users/rmmp/poll: status."""
+        for client in self.both():
+            self.assertEqual(client.get("/users/rmmp").values()["privilege"], "none")
+            response = client.post("/users/rmmp", {"privilege": "modify"})
+            self.assertIn(response.status, (200, 202, 204))
+            if response.status != 204:  # 2.5, A5: its client reads the type before the body, which may be empty
+                self.assertRegex(response.header("Content-Type"), "^application/")
+            self.assertEqual(client.get("/users/rmmp").values()["privilege"], "modify")
+            self.assertEqual(client.get("/users/rmmp/poll").values()["status"], "GRANTED")
+            self.assertEqual(client.act("/users/rmmp", "cancel").status, 204)
+            self.assertEqual(client.get("/users/rmmp").values()["privilege"], "none")
+            self.assertNotEqual(client.get("/users/rmmp/poll").values()["status"], "GRANTED")
+
+
+if __name__ == "__main__":
+    main()
