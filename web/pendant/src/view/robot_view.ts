@@ -15,6 +15,7 @@ interface Robot {
     arm: Arm;
     path: PathLine;
     planned: Line;
+    plannedShape: string;
     workObject: Group;
     ghost: Arm | null;
 }
@@ -50,7 +51,7 @@ export class RobotView {
             planned.frustumCulled = false;
             const workObject = frameAxes(Math.max(0.1, unit.reach * metres * 0.16));
             workObject.matrixAutoUpdate = false;
-            this.robots.push({ arm, path, planned, workObject, ghost: null });
+            this.robots.push({ arm, path, planned, plannedShape: "[]", workObject, ghost: null });
             this.stage.content.add(arm.group, path.line, planned, workObject);
             this.setFrames(this.robots.length - 1, unit.tool, unit.workObject);
         }
@@ -115,6 +116,9 @@ export class RobotView {
     setPlanned(index: number, points: Point[]): void {
         const robot = this.robots[index];
         if (!robot) return;
+        const shape = JSON.stringify(points);
+        if (shape === robot.plannedShape) return; // an arm at rest costs no frames
+        robot.plannedShape = shape;
         const values = points.flatMap((point) => point.slice(0, 3).map((value) => value * metres));
         robot.planned.geometry.dispose();
         robot.planned.geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(values, 3));

@@ -8,7 +8,6 @@ import { drawsInSoftware } from "./software";
 
 const slowFrame = 55; // ms from one picture to the next; above it the picture gets coarser
 const fastFrame = 20; // ms; below it finer again
-const longestFrame = 1500; // ms; longer: nothing had to be drawn in between
 const coarsest = 0.6;
 const stillAfter = 500; // ms without a change
 const stillRatio = 2; // pixels drawn for each shown in a picture at rest: smooth edges in software, too
@@ -35,7 +34,6 @@ export class Stage {
     private ratio = Math.min(window.devicePixelRatio, 2);
     private readonly finest = Math.min(window.devicePixelRatio, 2);
     private sinceChange = 0;
-    private lastDrawn = -Infinity;
     private stillTimer = 0;
     private isStill = false;
     colours: Palette = palette();
@@ -103,7 +101,8 @@ export class Stage {
             this.asked = false;
             if (this.isStill) this.resize();
             this.render();
-            this.measure(time);
+            // the graphics processor works on its own: the time until the browser offers the next frame shows how long it takes
+            requestAnimationFrame((next) => this.measure(next - time));
             if (!drawsInSoftware) return;
             clearTimeout(this.stillTimer);
             this.stillTimer = window.setTimeout(() => this.drawStill(), stillAfter);
@@ -121,7 +120,6 @@ export class Stage {
         this.isStill = true;
         this.setSize(stillRatio);
         this.render();
-        this.lastDrawn = -Infinity;
     }
 
     private render(): void {
@@ -130,19 +128,16 @@ export class Stage {
         this.onDrawn();
     }
 
-    private measure(time: number): void {
-        const duration = time - this.lastDrawn;
-        this.lastDrawn = time;
+    private measure(duration: number): void {
         this.frames += 1;
-        if (duration > longestFrame) return;
-        this.frameTime += (duration - this.frameTime) * 0.1;
+        this.frameTime += (duration - this.frameTime) * 0.2;
         this.sinceChange += 1;
-        if (this.sinceChange < 30) return;
-        const wanted =
-            this.frameTime > slowFrame ? Math.max(coarsest, this.ratio * 0.8)
-            : this.frameTime < fastFrame ? Math.min(this.finest, this.ratio * 1.1)
-            : this.ratio;
+        const slow = this.frameTime > 2 * slowFrame;
+        if (this.sinceChange < (slow ? 5 : 25)) return;
         this.sinceChange = 0;
+        let wanted = this.ratio;
+        if (this.frameTime > slowFrame) wanted = Math.max(coarsest, this.ratio * (slow ? 0.7 : 0.85));
+        else if (this.frameTime < fastFrame) wanted = Math.min(this.finest, this.ratio * 1.1);
         if (Math.abs(wanted - this.ratio) < 0.05) return;
         this.ratio = wanted;
         this.resize();
