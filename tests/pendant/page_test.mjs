@@ -68,7 +68,7 @@ if (!only || "served:".includes(only.slice(0, 6))) {
     }
 }
 
-if (!only || only === "screenshots") {
+if (option("pictures", "yes") === "yes" && (!only || only === "screenshots")) {
     const server = await start(folder);
     await takeScreenshots(browser, `http://127.0.0.1:${server.port}`, out);
     server.close();
