@@ -130,6 +130,8 @@ void Controller::beginTasks() {
         if (powersOn_) task->events().owe(SystemEvent::PowerOn);
         if (!task->keepsVariables()) task->events().owe(SystemEvent::Reset);
         if (waits) continue;
+        if (resident_ && isNormal(task) && !task->isReentering())
+            log_.write(EventId::ProgramStarted, task.get(), {task->name()});
         task->events().owe(task->isReentering() ? SystemEvent::Restart : SystemEvent::Start);
     }
 }

@@ -135,9 +135,13 @@ class Wired {
             return io.force(io.find(signal), value);
         });
     }
+    /// Returns when the orders of the signal have been carried out: they come with the events of that moment.
     void pulse(const char* signal) {
         set(signal, 1);
         set(signal, 0);
+        const auto now = [](VirtualController& controller) { return controller.core().scheduler().now(); };
+        const rt::Time before = ask(now);
+        comes([&](VirtualController& controller) { return now(controller) > before; });
     }
     double value(const char* signal) {
         return ask([&](VirtualController& controller) {
