@@ -2,7 +2,7 @@
 
     python3 tests/serve/load_measurement.py [SECONDS]
 
-Prints numbers; it is no test, because they depend on the machine.
+Prints numbers; not a test, because they depend on the machine.
 """
 
 import os

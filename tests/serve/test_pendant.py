@@ -118,7 +118,7 @@ class Files(PendantCase):
         self.assertNotIn("http://", text)
         self.assertNotIn("https://", text)
 
-    def test_names_of_the_server(self):  # 17: a name that somebody else owns is not the server's
+    def test_names_of_the_server(self):  # 17: a name of another owner is not the server's
         port = self.server.port("web")
         for host in (f"127.0.0.1:{port}", f"localhost:{port}", f"[::1]:{port}"):
             self.assertEqual(self.get(host=host).status, 200, host)

@@ -104,7 +104,7 @@ void PendantService::tick() {
     hub_.tick();
 }
 
-/// A name that somebody else owns could lead here: only addresses, localhost, and the port of the page.
+/// A name of another owner could lead here: only addresses, localhost, and the port of the page.
 bool PendantService::isOwnHost(const http::Head& head) const {
     if (head.count("Host") != 1 || !hasSafeHost(head)) return false;
     const std::string_view host = head.header("Host");

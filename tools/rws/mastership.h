@@ -29,11 +29,11 @@ class Mastership {
     /// Null: the domain is free.
     const Holder* holder(Domain domain) const;
     bool isHeldBy(Domain domain, uint64_t session) const;
-    /// False when somebody else holds one of the domains; then nothing has changed.
+    /// False when another client holds one of the domains; then nothing has changed.
     bool request(const std::vector<Domain>& domains, const Request& request);
     /// The same, until it is released with the id that is returned, also beyond the end of the session. 0: refused.
     int requestWithId(const std::vector<Domain>& domains, const Request& request);
-    /// Releases what the session holds. False when somebody else holds one of the domains; then nothing has changed.
+    /// Releases what the session holds. False when another client holds one of the domains; then nothing has changed.
     bool release(const std::vector<Domain>& domains, uint64_t session);
     /// False when the domains are not held with this id.
     bool releaseWithId(const std::vector<Domain>& domains, int id);

@@ -113,7 +113,6 @@ struct Reply {
     std::optional<Raw> raw;
     std::optional<Failure> failure;
     std::string location; ///< header, "" = none
-    bool endsSession = false;
 
     static Reply of(Document document, int status = 200);
     static Reply of(Raw raw);

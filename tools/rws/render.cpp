@@ -107,13 +107,17 @@ std::string contentTypeOf(Form form, Dialect dialect) {
     return form == Form::Json ? "application/hal+json;v=2.0" : "application/xhtml+xml;v=2.0";
 }
 
+std::string nextPage(const Document& document, const RenderContext& context) {
+    return document.next.starts_with('?') ? context.path + document.next : document.next;
+}
+
 std::string renderXhtml(const Document& document, const RenderContext& context) {
     std::string body = R"(<div class="state">)";
     body += anchor(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self,
                    "self");
     for (const auto& [rel, href] : document.links)
         body += anchor(href, rel);
-    if (!document.next.empty()) body += anchor(document.next, "next");
+    if (const std::string next = nextPage(document, context); !next.empty()) body += anchor(next, "next");
     body += "<ul>";
     for (const Entry& entry : document.entries)
         body += listItem(entry);

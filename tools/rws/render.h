@@ -22,6 +22,12 @@ struct RenderContext {
 std::string render(const Document& document, Form form, const RenderContext& context);
 /// The body of an error.
 std::string renderFailure(const Failure& failure, Form form, const RenderContext& context);
+/// The same in one form.
+std::string renderXhtml(const Document& document, const RenderContext& context);
+std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context);
+/// The address of the next page, "" when there is none. A query alone is for the same path; other relative addresses stay, because some
+/// clients put the folder of the base in front of them.
+std::string nextPage(const Document& document, const RenderContext& context);
 /// "application/xhtml+xml;v=2.0"
 std::string contentTypeOf(Form form, Dialect dialect);
 

@@ -5,9 +5,6 @@
 
 namespace rapidc::rws {
 
-std::string renderXhtml(const Document& document, const RenderContext& context);
-std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context);
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -50,9 +47,8 @@ Json linksOf(const Document& document, const RenderContext& context) {
         href(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self);
     for (const auto& [rel, target] : document.links)
         links[rel] = href(target);
-    if (!document.next.empty())
-        links["next"] =
-            href(context.dialect == Dialect::V2 ? withEscapedAmpersand(document.next) : document.next);
+    if (const std::string next = nextPage(document, context); !next.empty())
+        links["next"] = href(context.dialect == Dialect::V2 ? withEscapedAmpersand(next) : next);
     return links;
 }
 
@@ -85,16 +81,8 @@ std::string renderJsonFailure(const Failure& failure, const RenderContext& conte
 
 } // namespace
 
-/// A query alone is for the same path. Relative addresses stay: some clients put the folder of the base in front of them.
-static Document resolved(const Document& document, const RenderContext& context) {
-    Document result = document;
-    if (!result.next.empty() && result.next.front() == '?') result.next = context.path + result.next;
-    return result;
-}
-
 std::string render(const Document& document, Form form, const RenderContext& context) {
-    const Document whole = resolved(document, context);
-    return form == Form::Json ? renderJson(whole, context) : renderXhtml(whole, context);
+    return form == Form::Json ? renderJson(document, context) : renderXhtml(document, context);
 }
 
 std::string renderFailure(const Failure& failure, Form form, const RenderContext& context) {

@@ -1,6 +1,7 @@
 #include "tools/rws/request_values.h"
 
 #include "config/text_util.h"
+#include "tools/http/url.h"
 
 #include <fmt/format.h>
 
@@ -78,17 +79,7 @@ std::string fieldOf(const Request& request, std::string_view name) {
 }
 
 std::string escapedSegment(std::string_view segment) {
-    std::string escaped;
-    for (const char c : segment) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool isLetter =
-            (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || (byte >= '0' && byte <= '9');
-        if (isLetter || c == '-' || c == '.' || c == '_' || c == '~' || c == '$')
-            escaped += c;
-        else
-            escaped += fmt::format("%{:02X}", byte);
-    }
-    return escaped;
+    return http::encodePercent(segment, "-._~$");
 }
 
 std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,

@@ -27,7 +27,6 @@ struct Route {
     std::string action;
     Handler handler = {};
     Where where = Where::Controller;
-    bool withoutLogin = false;
 };
 
 class Router {

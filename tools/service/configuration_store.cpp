@@ -257,7 +257,7 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
     const CfgAttributeType* kind = known == nullptr ? nullptr : known->find(attribute);
     const CfgAttribute* present = instance.find(attribute);
     if (kind == nullptr && present == nullptr && known != nullptr && isType(domain, type)) {
-        // an attribute that the table does not know: somebody has written it in another instance
+        // an attribute that the table does not know: another instance has it
         const std::vector<Instance> others = instances(domain, type);
         const bool isUsed = std::any_of(others.begin(), others.end(), [&](const Instance& other) {
             return std::any_of(other.values.begin(), other.values.end(),

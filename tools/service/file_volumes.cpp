@@ -163,7 +163,7 @@ FileResult FileVolumes::read(const std::string& path, std::string& bytes) const 
         const ssize_t got = ::read(file.number(), bytes.data() + have, bytes.size() - have);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return {FileProblem::Failed, fmt::format("{}: {}", path, std::strerror(errno))};
-        if (got == 0) break; // somebody has cut it
+        if (got == 0) break; // the file has become shorter meanwhile
         have += static_cast<std::size_t>(got);
     }
     bytes.resize(have);
