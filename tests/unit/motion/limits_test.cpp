@@ -183,6 +183,23 @@ TEST_CASE("the acceleration of an axis is limited", "[motion][limits]") {
     checkBinds(measured(system, command).axisGain, limit, 0.97);
 }
 
+// The accelerations of this robot were identified with 1 kg (docs/motion.md): these are the accelerations with it.
+TEST_CASE("the load of the recordings is part of what they gave", "[motion][limits]") {
+    MotionSystem system(robot::loadRobotModel("IRB 6640-180/2.55").value(), {});
+    MoveCommand command = axisOne(system, 40);
+    command.settings.accelerationPercent = 40;
+    const double free = measured(system, command).axisGain;
+    command = axisOne(system, -40);
+    command.settings.accelerationPercent = 40;
+    command.load.mass = 1;
+    command.load.inertia = 0.3;
+    CHECK(measured(system, command).axisGain == Approx(free).epsilon(1e-6));
+    command = axisOne(system, 40);
+    command.settings.accelerationPercent = 40;
+    command.load.mass = 181; // 180 kg more, the rated payload
+    CHECK(measured(system, command).axisGain == Approx(free / 1.5).epsilon(0.03));
+}
+
 TEST_CASE("PathAccLim limits both changes of speed apart", "[motion][limits]") {
     MotionSystem system = smallRobot();
     MoveCommand command = line(system, 250);
