@@ -303,6 +303,8 @@ void readDynamics(Reader& in, RobotModel& model) {
     model.dynamics.shortWindow = windows[1];
     model.dynamics.load = in.number(*given, "load_kg", 0.0);
     if (!(model.dynamics.load >= 0)) in.fail("field 'load_kg' must not be negative");
+    in.numbers(*given, "motor_deflection_mrad", model.dynamics.motorDeflection.data(), model.maxSpeed.size(),
+               false);
     const Json* axes = in.find(*given, "acceleration_rad_s2", true);
     if (axes == nullptr) return;
     if (!axes->is_array() || axes->size() != model.maxSpeed.size())

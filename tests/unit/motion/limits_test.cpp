@@ -200,6 +200,21 @@ TEST_CASE("the load of the recordings is part of what they gave", "[motion][limi
     CHECK(measured(system, command).axisGain == Approx(free / 1.5).epsilon(0.03));
 }
 
+// In the corner between two joint moves the tool turns back: slow at the turn, it must not be faster beside it.
+TEST_CASE("v_tcp holds where the tool turns back in a corner of axes", "[motion][limits]") {
+    MotionSystem system = smallRobot();
+    MoveCommand command = fast(system, MoveKind::AbsJoint);
+    command.speed.vTcp = 100;
+    command.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
+    command.joints.robax = {-3.30, 5.26, 26.03, 7.40, 52.26, -22.51};
+    REQUIRE(system.enqueue(command));
+    command.zone = {};
+    command.joints.robax = {-1.92, 9.71, -3.27, 24.31, 47.02, -18.88};
+    const double fastest = measured(system, command).tcp;
+    CHECK(fastest <= 100.5);
+    CHECK(fastest >= 99);
+}
+
 TEST_CASE("PathAccLim limits both changes of speed apart", "[motion][limits]") {
     MotionSystem system = smallRobot();
     MoveCommand command = line(system, 250);
