@@ -1,6 +1,7 @@
 // Manual 1.7, 2.2.5: SoftAct, SoftDeact, TuneServo, TuneReset.
 
 #include "stdlib/impl/motion/soft_servo.h"
+#include "config/json_text.h"
 #include "runtime/debug/state_keepers.h"
 #include "runtime/motion/soft_servo.h"
 #include "runtime/sim/surroundings.h"
@@ -12,8 +13,6 @@
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
-
-#include <nlohmann/json.hpp>
 
 #include <array>
 
