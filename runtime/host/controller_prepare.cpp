@@ -249,7 +249,7 @@ ExitStatus Controller::openFiles() {
         return ExitStatus::BadUsage;
     }
     if (!options_.outputs.trace.empty()) {
-        trace_ = std::make_unique<TraceWriter>();
+        trace_ = std::make_unique<TraceWriter>(options_.outputs.motors);
         if (!trace_->open(options_.outputs.trace, error)) {
             print("--trace: " + error);
             return ExitStatus::BadUsage;

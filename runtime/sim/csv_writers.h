@@ -22,15 +22,18 @@ class SignalsWriter {
 };
 
 /// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
-/// world; axes that are not connected read 9E+09; `move` counts move instructions.
+/// world; axes that are not connected read 9E+09; `move` counts move instructions. With motors, `m1..m6` follow.
 class TraceWriter final : public TraceSink {
   public:
+    explicit TraceWriter(bool withMotors) : withMotors_(withMotors) {}
     bool open(const std::string& path, std::string& error);
     void sample(Time time, std::string_view unit, const motion::MotionState& state) override;
+    bool wantsMotors() const override { return withMotors_; }
     bool close() { return file_.close(); }
 
   private:
     OutputFile file_;
+    bool withMotors_ = false;
 };
 
 } // namespace rt

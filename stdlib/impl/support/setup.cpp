@@ -7,6 +7,7 @@
 #include "stdlib/impl/io/cyclic_bools.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/collisions.h"
+#include "stdlib/impl/motion/soft_servo.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/motion/world_zones.h"
@@ -47,6 +48,7 @@ void setUpStandardLibrary(Controller& controller) {
     lib::keepMessages(controller, kept);
     lib::keepTriggers(controller, kept);
     lib::keepWorldZones(controller, kept);
+    lib::keepSoftServo(controller, kept);
 }
 
 } // namespace rt
