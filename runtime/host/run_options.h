@@ -15,7 +15,7 @@ class Command;
 
 /// Files that a run writes, by path; "" = not asked for.
 struct RunOutputs {
-    std::string trace, signals, events;
+    std::string trace, signals, events, errors;
     std::string picture, report;
     std::string compare;  ///< a recording to compare with: it is read
     bool summary = false; ///< prints what slowed the movements, at the end
