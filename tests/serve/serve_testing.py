@@ -42,7 +42,9 @@ class Serve:
 
     def __init__(self, *inputs, options=(), wait=True):
         self.errors = tempfile.TemporaryFile()
-        self.process = subprocess.Popen([RAPIDC, "serve", *inputs, *options], stdout=subprocess.PIPE, stderr=self.errors)
+        environment = dict(os.environ, XDG_STATE_HOME=os.path.join(tempfile.gettempdir(), "rapidc-serve-test-state"))
+        self.process = subprocess.Popen([RAPIDC, "serve", *inputs, *options], stdout=subprocess.PIPE, stderr=self.errors,
+                                        env=environment)
         self.addresses = {}
         if wait:
             self.wait_ready()
