@@ -68,6 +68,7 @@ class Controller final : public DebugHost {
         return *motions_[static_cast<std::size_t>(std::max(task.motionGroup(), 0))];
     }
     MechanicalUnits& units() { return units_; }
+    const MechanicalUnits& units() const { return units_; }
     SteppedArm& arm(const Task& task) override { return motion(task); }
     void forEachArm(const std::function<void(SteppedArm&)>& action) override;
     HandleTable<ClockObject>& clocks() { return clocks_; }

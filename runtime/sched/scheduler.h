@@ -6,6 +6,7 @@
 #include "runtime/sched/inbox.h"
 #include "runtime/sched/task.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -49,6 +50,8 @@ class Scheduler {
     /// Virtual time, instructions of the running task included.
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
+    /// By how much the wall clock is past virtual time, which keeps step with it; 0 while it does not.
+    Time lateness() const { return paced() ? std::max<Time>(0, wallTime() - now_) * 100 / pacePercent_ : 0; }
     /// Virtual time keeps step with the wall clock (or does not); `percent` of the wall's pace, > 0. At any time.
     void setPace(bool paced, int percent = 100);
     /// The run does not end when nothing is pending: it waits for commands.

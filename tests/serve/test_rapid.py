@@ -337,6 +337,68 @@ class Modules(RapidCase):
             self.assertEqual(client.get(program).values()["name"], "Shop")
 
 
+class LargeModule(RapidCase):
+    """controller.md 2.3: module-text, or file-path when the module is large; the client reads that file, then deletes it."""
+    MODULE = "MODULE M\n  PROC main()\n  ENDPROC\n" + "! a comment that makes the module large, a line of it\n" * 12000 + "ENDMODULE\n"
+
+    def test_text_by_file(self):
+        for client in self.both():
+            path = ("/rw/rapid/modules/M?task=T_ROB1&resource=module-text" if client.dialect == 1
+                    else f"{TASK}/modules/M/text")
+            values = client.get(path).values("rap-module-text")
+            self.assertNotIn("module-text", values)
+            file = "/fileservice/" + values["file-path"]
+            self.assertEqual(client.get(file).body.decode(), self.MODULE)
+            self.assertEqual(client.delete(file).status, 204)
+
+
+class Entries(RapidCase):
+    """RWS documentation: set the entry point of a task, unload its program."""
+    MODULE = """MODULE M
+  PERS num main_runs := 0;
+  PERS num other_runs := 0;
+  PROC main()
+    main_runs := main_runs + 1;
+  ENDPROC
+  PROC Other()
+    other_runs := other_runs + 1;
+  ENDPROC
+  FUNC num NoEntry()
+    RETURN 1;
+  ENDFUNC
+ENDMODULE
+"""
+
+    def test_entry_point(self):
+        for client in self.masters():
+            program = f"{TASK}/program"
+            for wrong in ("None", "NoEntry", ""):
+                reply = client.act(program, "setentrypoint", {"routine": wrong}, "entrypoint")
+                self.assertEqual(reply.status, 400, wrong)
+            self.assertEqual(client.act(program, "setentrypoint", {"routine": "Other"}, "entrypoint").status, 204)
+            self.eventually(lambda: client.get(program).values("rap-program")["entrypoint"].lower() == "other")
+            before = (float(self.value("T_ROB1/M/main_runs")), float(self.value("T_ROB1/M/other_runs")))
+            self.assertEqual(client.act("/rw/rapid/execution", "resetpp").status, 204)
+            self.assertEqual(self.start(client, cycle="once").status, 204)
+            self.eventually(lambda: float(self.value("T_ROB1/M/other_runs")) == before[1] + 1)
+            self.wait_stopped(client)
+            self.assertEqual(float(self.value("T_ROB1/M/main_runs")), before[0])
+            self.assertEqual(client.act(program, "setentrypoint", {"routine": "main"}, "entrypoint").status, 204)
+            self.eventually(lambda: client.get(program).values("rap-program")["entrypoint"] == "main")
+
+    def test_unloading_a_program(self):
+        for client in self.masters():
+            program = f"{TASK}/program"
+            self.assertEqual(client.act(program, "save", {"path": "$HOME/kept"}).status, 204)
+            self.assertEqual(client.act(program, "unloadprog", {}, "unload").status, 204)
+            self.eventually(lambda: client.get(program).status == 204)  # RWS documentation: no program
+            symbol = data(client.dialect, "T_ROB1/M/main_runs")
+            self.assertEqual(client.get(symbol).status, 400)
+            name = next(entry for entry in os.listdir(os.path.join(self.home, "kept")) if entry.endswith(".pgf"))
+            self.assertEqual(client.act(program, "loadprog", {"progpath": f"$HOME/kept/{name}"}, "load").status, 204)
+            self.eventually(lambda: client.get(symbol).status == 200)
+
+
 class Dialogs(RapidCase):
     MODULE = """MODULE M
   PERS num answer := 0;
