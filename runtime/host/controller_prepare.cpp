@@ -266,6 +266,17 @@ ExitStatus Controller::openFiles() {
             signalsWriter_->change(scheduler_.now(), io_.config(id).name, value);
         });
     }
+    if (!options_.outputs.errors.empty()) {
+        errorsWriter_ = std::make_unique<ErrorsWriter>();
+        if (!errorsWriter_->open(options_.outputs.errors, error)) {
+            print("--errors: " + error);
+            return ExitStatus::BadUsage;
+        }
+        scheduler_.setErrorObserver([this](const Task& task, int number) {
+            errorsWriter_->raised(scheduler_.now(), task.name(), task.place(), number,
+                                  log_.errorName(number));
+        });
+    }
     if (!options_.outputs.events.empty() && !log_.openJson(options_.outputs.events, error)) {
         print("--events: " + error);
         return ExitStatus::BadUsage;

@@ -158,6 +158,10 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     command.add("--events", options.outputs.events, "write the event log, an object a line")
         .typeName("FILE.jsonl");
     command
+        .add("--errors", options.outputs.errors,
+             "write every error that is raised and where, also those that handlers take")
+        .typeName("FILE.csv");
+    command
         .add("--report", options.outputs.report,
              "write a page with the path in 3D, speeds, signals, events and a table of movements")
         .typeName("FILE.html");

@@ -15,7 +15,7 @@ class Command;
 
 /// Files that a run writes, by path; "" = not asked for.
 struct RunOutputs {
-    std::string trace, signals, events;
+    std::string trace, signals, events, errors;
     bool motors = false; ///< the trace has the positions of the motors, too
     std::string picture, report;
     std::string compare;  ///< a recording to compare with: it is read

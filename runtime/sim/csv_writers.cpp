@@ -30,6 +30,18 @@ void SignalsWriter::change(Time time, std::string_view signal, double value) {
     file_.write(fmt::format("{},{},{}\n", formatSeconds(time, 6), signal, shortestNumber(value)));
 }
 
+bool ErrorsWriter::open(const std::string& path, std::string& error) {
+    if (!file_.open(path, error)) return false;
+    file_.write("time_s,task,module,routine,line,column,number,name,file\n");
+    return true;
+}
+
+void ErrorsWriter::raised(Time time, std::string_view task, const SourcePlace& place, int number,
+                          std::string_view name) {
+    file_.write(fmt::format("{},{},{},{},{},{},{},{},\"{}\"\n", formatSeconds(time, 6), task, place.module,
+                            place.routine, place.line, place.column, number, name, place.file));
+}
+
 bool TraceWriter::open(const std::string& path, std::string& error) {
     if (!file_.open(path, error)) return false;
     file_.write("time_s,unit,j1,j2,j3,j4,j5,j6,e1,e2,e3,e4,e5,e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move");

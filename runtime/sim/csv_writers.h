@@ -2,6 +2,7 @@
 // The files a run leaves: every change of a signal, the robot's trace. Fixed formats, the same bytes on every machine.
 
 #include "runtime/base/output_file.h"
+#include "runtime/base/source_place.h"
 #include "runtime/base/time.h"
 #include "runtime/sim/trace_sink.h"
 
@@ -15,6 +16,19 @@ class SignalsWriter {
   public:
     bool open(const std::string& path, std::string& error);
     void change(Time time, std::string_view signal, double value);
+    bool close() { return file_.close(); }
+
+  private:
+    OutputFile file_;
+};
+
+/// --errors: `time_s,task,module,routine,line,column,number,name,file`, a row for each error that is raised; the place is where the
+/// statement begins, `name` is empty for errors of the program's own.
+class ErrorsWriter {
+  public:
+    bool open(const std::string& path, std::string& error);
+    void raised(Time time, std::string_view task, const SourcePlace& place, int number,
+                std::string_view name);
     bool close() { return file_.close(); }
 
   private:

@@ -1,4 +1,5 @@
 #include "stdlib/impl/arc/arc_process.h"
+#include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/dispense/dispense_process.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/flow/booked_numbers.h"
@@ -41,11 +42,15 @@ void setUpStandardLibrary(Controller& controller) {
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);
     lib::keepBookedNumbers(controller, kept);
+    lib::keepCameras(controller, kept);
     lib::keepClocks(controller, kept);
+    lib::keepConveyors(controller, kept);
     lib::keepFiles(controller, kept);
     lib::keepSignalVariables(controller, kept);
     lib::keepCyclicBools(controller, kept);
     lib::keepMessages(controller, kept);
+    lib::keepServoGuns(controller, kept);
+    lib::keepSpotGuns(controller, kept);
     lib::keepTriggers(controller, kept);
     lib::keepWorldZones(controller, kept);
     lib::keepSoftServo(controller, kept);
