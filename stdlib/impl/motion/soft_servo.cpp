@@ -56,7 +56,7 @@ motion::SoftServo& servoOf(Controller& controller, MotionDriver& motion) {
     return *state.servo;
 }
 
-/// What was set has changed; the arm follows within so many seconds.
+/// Brings softness and tuning to the arm, within so many seconds.
 void apply(Controller& controller, MotionDriver& motion, double seconds) {
     const auto& state = motion.service<SoftServoState>();
     motion.refresh();
