@@ -386,6 +386,7 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
                       (isGiven(symbol, "persbool") || isGiven(symbol, "persboolbreak")));
     native.finite = symbol.traits.has(sema::Trait::Finite);
     native.bounded = symbol.traits.has(sema::Trait::Bounded);
+    native.whole = symbol.traits.has(sema::Trait::Whole);
     return addNative(std::move(native));
 }
 
