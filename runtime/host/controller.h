@@ -38,6 +38,7 @@ class ModuleSaver;
 class RunReports;
 class SavedState;
 class SignalsWriter;
+class ErrorsWriter;
 class TraceMerger;
 class TraceWriter;
 
@@ -237,6 +238,7 @@ class Controller final : public DebugHost {
     std::unique_ptr<TraceWriter> trace_;
     std::unique_ptr<TraceMerger> traceMerger_; // between several groups and the trace
     std::unique_ptr<SignalsWriter> signalsWriter_;
+    std::unique_ptr<ErrorsWriter> errorsWriter_;
     std::unique_ptr<RunReports> reports_;
     HandleTable<ClockObject> clocks_;
     SystemSettings settings_;

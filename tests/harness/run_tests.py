@@ -56,7 +56,7 @@ def case_filter(name):
 
 
 # Groups that `./dev test --quick` leaves out: each of their tests starts several processes, or needs seconds.
-NOT_QUICK = {"cli", "fuzz"}
+NOT_QUICK = {"cli", "errors", "fuzz"}
 # Unit tests with these tags need seconds.
 SLOW_TAGS = {"random", "large"}
 
@@ -96,7 +96,8 @@ def write_ctest(path, source, build):
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
     add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc",
                          os.path.join(build, "rapidc")], 60)
-    add("stdlib/error_tests", [sys.executable, os.path.join(scripts, "check_error_tests.py")], 60)
+    add("errors/every_constant", [sys.executable, os.path.join(scripts, "check_error_tests.py"), "--rapidc",
+                                  os.path.join(build, "rapidc")], 900)
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 

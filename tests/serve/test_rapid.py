@@ -3,7 +3,7 @@
 import os
 import urllib.parse
 
-from rapid_testing import RapidCase, data
+from rapid_testing import RapidCase, data, program
 from serve_testing import main
 
 MODULE = """
@@ -495,6 +495,49 @@ ENDMODULE
             self.assertEqual(client.delete("/rw/dipc/PC").status, 204)
             self.assertEqual(client.delete("/rw/dipc/PC").status, 404)
             self.assertEqual(client.delete("/rw/dipc/RMQ_T_ROB1").status, 403)
+
+
+class InvalidMessages(RapidCase):
+    MODULE = None
+    FILES = {"invalid_messages.modx": program("invalid_messages.modx")}
+    OPTIONS = ()
+
+    def queue(self, client, name):
+        self.assertIn(client.post("/rw/dipc?action=create", {"dipc-queue-name": name, "dipc-max-size": "444",
+                                                             "dipc-max-number-of-messages": "10"}).status, (200, 201))
+
+    def send(self, client, source, value):
+        message = {"dipc-src-queue-name": source, "dipc-cmd": "111", "dipc-userdef": "1", "dipc-msgtype": "1",
+                   "dipc-data": f"num;{value}"}
+        self.assertIn(client.act("/rw/dipc/RMQ_T_ROB1", "send", message).status, (200, 204))
+
+    def counts(self):
+        return self.value("T_ROB1/InvalidMessages/good"), self.value("T_ROB1/InvalidMessages/invalid")
+
+    def test_messages_of_clients_that_do_not_exist(self):
+        """Manual 1.10, rmqmessage: a message from a client that does not exist raises ERR_RMQ_INVMSG where it is read."""
+        client = self.client(1)
+        self.queue(client, "PC")
+        self.send(client, "PC", 1)
+        self.eventually(lambda: self.counts() == ("1", "0"))
+        self.send(client, "never_there", 2)  # read by RMQReadWait
+        self.eventually(lambda: self.counts() == ("1", "1"))
+        self.send(client, "PC", 7)  # RMQGetMessage reads the next one
+        self.eventually(lambda: self.value("T_ROB1/InvalidMessages/waiting") == '"RMQGetMessage"')
+        self.send(client, "never_there", 3)
+        self.eventually(lambda: self.counts() == ("2", "2"))
+
+    def test_sender_that_has_gone(self):
+        """The same for a client whose queue was removed before its message was read."""
+        client = self.client(1)
+        self.queue(client, "gone")
+        good, invalid = (int(count) for count in self.counts())
+        self.assertEqual(client.act("/rw/rapid/execution", "stop", {"stopmode": "stop"}).status, 204)
+        self.wait_stopped(client)
+        self.send(client, "gone", 4)
+        self.assertEqual(client.delete("/rw/dipc/gone").status, 204)
+        self.assertEqual(self.start(client).status, 204)
+        self.eventually(lambda: self.counts() == (str(good), str(invalid + 1)))
 
 
 if __name__ == "__main__":

@@ -171,6 +171,7 @@ void Server::catchUp(bool whole, const std::function<bool()>& interrupted) {
             endProgress();
             const bool all = publisher_.publishQuickly(state_) || whole;
             if (all && (!interrupted || !interrupted())) publisher_.publish(state_);
+            if (!interrupted || !interrupted()) state_.prepareNames();
         }
     } catch (const std::exception& problem) {
         state_.dirty = false;
