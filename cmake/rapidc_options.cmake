@@ -99,3 +99,16 @@ function(rapidc_library name)
     target_link_libraries(${name} INTERFACE ${ARG_DEPS})
   endif()
 endfunction()
+
+# rapidc_embed_files(TARGET space::function header.h file...): the texts of the files, in this order, as the result of a function
+# `std::span<const std::string_view> function()` that the header declares. They become a source of the target.
+function(rapidc_embed_files target function header)
+  string(REPLACE "::" "_" stem ${function})
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_${stem}.cpp)
+  list(JOIN ARGN "|" files)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} "-DFUNCTION=${function}" "-DHEADER=${header}" "-DFILES=${files}" "-DOUTPUT=${output}"
+      -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
+    DEPENDS ${ARGN} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()

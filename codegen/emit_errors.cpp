@@ -24,7 +24,8 @@ RoutineEmitter::ErrorJoin& RoutineEmitter::makeJoin(ErrorJoin& join, const char*
 llvm::BasicBlock* RoutineEmitter::raiseFrom(const ir::Inst& inst, Value* number) {
     ErrorJoin& join = inUndo()          ? makeJoin(raiseUndo_, "raise.undo")
                       : isHandled(inst) ? makeJoin(raiseHandled_, "raise.handled")
-                                        : makeJoin(raiseUnhandled_, "raise");
+                      : frameIsFilled() ? makeJoin(raiseUnhandled_, "raise")
+                                        : makeJoin(raiseFrameless_, "raise.frameless");
     if (!join.statement) {
         llvm::IRBuilder<> b(join.block);
         join.statement = b.CreatePHI(b.getInt32Ty(), 4, "statement");
@@ -72,7 +73,7 @@ void RoutineEmitter::continueIfNativeOk(const ir::Inst& inst, Value* status, Bas
     b_.CreateCondBr(b_.CreateICmpEQ(status, statusValue(rt::kOk)), ok, failed, m_.unlikely());
     b_.SetInsertPoint(failed);
     if (m_.isSelfContained(module_.natives[inst.index])) {
-        if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
+        if (!frameIsFilled()) fillFrame();
         storeStatement(stmtNumber(inst));
     }
     Value* before = setsTaskFrame_ ? nullptr : loadTask<&rt::TaskCore::frame>("taskFrame");
@@ -143,9 +144,8 @@ void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
 void RoutineEmitter::emitErrorBlocks() {
     if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
     current_ = 0; // outside the undo handler
-    if (raiseHandled_.block) emitRaise(raiseHandled_, true);
-    if (raiseUnhandled_.block) emitRaise(raiseUnhandled_, false);
-    if (raiseUndo_.block) emitRaise(raiseUndo_, false);
+    for (ErrorJoin* join : {&raiseHandled_, &raiseUnhandled_, &raiseFrameless_, &raiseUndo_})
+        if (join->block) emitRaise(*join);
     if (steps_.block) emitSteps();
     if (dispatch_.block) emitDispatch();
     if (leave_.block) emitLeave();
@@ -154,16 +154,16 @@ void RoutineEmitter::emitErrorBlocks() {
     returnFromUndo(leaveUndo_.number);
 }
 
-void RoutineEmitter::emitRaise(ErrorJoin& join, bool handled) {
+void RoutineEmitter::emitRaise(ErrorJoin& join) {
     b_.SetInsertPoint(join.block);
-    if (!frameInPrologue_) fillFrame(); // it may not have been filled on the way here
+    if (&join == &raiseFrameless_) fillFrame();
     storeStatement(join.statement);
     Value* status = m_.runtime().raise.call(b_, task_, frame_, join.number);
     if (&join == &raiseUndo_) {
         returnFromUndo(status);
         return;
     }
-    if (!handled) return leaveOrAgain(status);
+    if (&join != &raiseHandled_) return leaveOrAgain(status);
     ErrorJoin& next = dispatchJoin();
     if (routine_.stepping) {
         BasicBlock* taken = newBlock("taken");

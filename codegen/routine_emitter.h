@@ -148,6 +148,10 @@ class RoutineEmitter {
     };
     bool isHandled(const ir::Inst& inst) const;
     bool inUndo() const { return inUndo_[current_]; }
+    /// Whether every way to the current block has filled the frame record.
+    bool frameIsFilled() const {
+        return frameInPrologue_ || (frameBlock_ != ir::kNone && cfg_.dominates(frameBlock_, current_));
+    }
     ErrorJoin& makeJoin(ErrorJoin& join, const char* name);
     BasicBlock* joinFrom(ErrorJoin& join, Value* number);
     void check(const ir::Inst& inst, Value* condition);
@@ -165,7 +169,7 @@ class RoutineEmitter {
     ErrorJoin& dispatchJoin();
     ErrorJoin& leaveJoin();
     void emitErrorBlocks();
-    void emitRaise(ErrorJoin& join, bool handled);
+    void emitRaise(ErrorJoin& join);
     void emitDispatch();
     BasicBlock* enterHandler();
     void emitLeave();
@@ -205,6 +209,7 @@ class RoutineEmitter {
     llvm::AllocaInst* addresses_ = nullptr; ///< stepping: of the locals that are described
     BasicBlock* enterHandler_ = nullptr;
     ErrorJoin raiseHandled_, raiseUnhandled_, dispatch_, leave_, raiseUndo_, leaveUndo_;
+    ErrorJoin raiseFrameless_; ///< like raiseUnhandled_, from where the frame record may not be filled
 };
 
 } // namespace codegen

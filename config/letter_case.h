@@ -55,6 +55,17 @@ constexpr bool sameName(std::string_view a, std::string_view b) {
     return true;
 }
 
+/// The order of the lower-case spellings: negative, 0 or positive.
+constexpr int compareNames(std::string_view a, std::string_view b) {
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+        const char before = i > 0 ? a[i - 1] : '\0';
+        const auto left = static_cast<unsigned char>(lowerByte(a[i], before));
+        const auto right = static_cast<unsigned char>(lowerByte(b[i], before));
+        if (left != right) return left < right ? -1 : 1;
+    }
+    return a.size() == b.size() ? 0 : a.size() < b.size() ? -1 : 1;
+}
+
 constexpr bool beginsWithName(std::string_view text, std::string_view prefix) {
     return text.size() >= prefix.size() && sameName(text.substr(0, prefix.size()), prefix);
 }

@@ -40,6 +40,8 @@ template <size_t N> using MessageArgs = const std::string (&)[N];
 
 /// Identifies the report of a mistake within one check. Reports of one mistake are merged by it.
 enum class CauseId : uint32_t { None = 0 };
+/// Of a line that lacks its semicolon. Unlike those of a check they differ between all files of the process.
+CauseId newLineCause();
 
 struct Diagnostic {
     struct Note {

@@ -1,5 +1,5 @@
 #pragma once
-// The pages of docs/diagnostics inside the executable. embed_pages.cmake makes their definition.
+// The pages of docs/diagnostics inside the executable. rapidc_embed_files makes their definition.
 
 #include <span>
 #include <string_view>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -27,6 +28,12 @@ std::string_view withoutSpaces(std::string_view text) {
 }
 
 } // namespace
+
+CauseId newLineCause() {
+    constexpr uint32_t kLineCauses = 1u << 31; // those of a check are smaller
+    static std::atomic<uint32_t> last = 0;
+    return CauseId{kLineCauses | ++last};
+}
 
 Diagnostic& Diagnostic::fix(SourceRange place, std::string replacement, bool certain) {
     const std::string_view old =

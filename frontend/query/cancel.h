@@ -2,17 +2,27 @@
 // How the caller of a query says that the answer is not wanted any more.
 
 #include <atomic>
+#include <cstdint>
 
 namespace rapid::query {
+
+enum class CancelReason : uint8_t {
+    None,
+    Requested, ///< the caller said so
+    Overtaken  ///< the text has changed meanwhile
+};
 
 /// Set by any thread. A query that finds it set returns early with what it has; the caller drops that.
 class Cancel {
   public:
-    void request() { requested_.store(true, std::memory_order_relaxed); }
-    bool requested() const { return requested_.load(std::memory_order_relaxed); }
+    void request(CancelReason reason = CancelReason::Requested) {
+        reason_.store(reason, std::memory_order_relaxed);
+    }
+    CancelReason reason() const { return reason_.load(std::memory_order_relaxed); }
+    bool requested() const { return reason() != CancelReason::None; }
 
   private:
-    std::atomic<bool> requested_{false};
+    std::atomic<CancelReason> reason_{CancelReason::None};
 };
 
 /// Queries take a pointer: null means that it cannot be cancelled.

@@ -1,5 +1,6 @@
 #include "frontend/query/completion.h"
 
+#include "config/letter_case.h"
 #include "frontend/query/completion_rules.h"
 #include "frontend/query/completion_snippets.h"
 #include "frontend/query/describe.h"
@@ -75,8 +76,18 @@ class Completer {
     void keepBest() {
         const auto end = list_.items.begin() + static_cast<std::ptrdiff_t>(options_.limit);
         std::nth_element(list_.items.begin(), end, list_.items.end(), isBefore);
+        firstDropped_ = end->sortText;
         list_.items.erase(end, list_.items.end());
         list_.incomplete = true;
+    }
+    /// Whether an item with this text to sort by would be dropped: enough others come before it.
+    bool isBeyond(std::string_view sortText) const {
+        return !firstDropped_.empty() && sortText > firstDropped_;
+    }
+    bool isBeyond(char rank, std::string_view name) const {
+        if (firstDropped_.empty() || rank != firstDropped_.front())
+            return !firstDropped_.empty() && rank > firstDropped_.front();
+        return config::compareNames(name, std::string_view(firstDropped_).substr(1)) > 0;
     }
 
     void collect() {
@@ -125,11 +136,14 @@ class Completer {
     }
 
     CompletionItem* add(const Symbol& symbol, char rank, bool fits) {
-        if (!matches(symbol.name)) return nullptr;
+        if (isBeyond(rank, symbol.name) || !matches(symbol.name)) return nullptr;
+        return &addItem(symbol, rank, fits);
+    }
+    CompletionItem& addItem(const Symbol& symbol, char rank, bool fits) {
         CompletionItem& item = append(symbol.name, kindOf(symbol), rank, symbol.name);
         item.fits = fits;
         item.symbol = &symbol;
-        return &item;
+        return item;
     }
 
     std::string detailOf(const Symbol& symbol) const {
@@ -259,10 +273,16 @@ class Completer {
             rank = symbol.predefined && !isConstant(symbol) ? kLocal : kBest;
         else if (fit == Fit::Reach)
             rank = symbol.predefined ? kRare : kLoose;
-        CompletionItem* item = add(symbol, rank, fit != Fit::Reach);
+        CompletionItem* item = nullptr;
+        if (typed && fit == Fit::Exact) {
+            std::string sortText = rank + std::string(1, rankOf(symbol)) + seriesKey(symbol.name);
+            if (isBeyond(sortText)) return;
+            item = &addItem(symbol, rank, true);
+            item->sortText = std::move(sortText);
+        } else {
+            item = add(symbol, rank, fit != Fit::Reach);
+        }
         if (!item) return;
-        if (typed && fit == Fit::Exact)
-            item->sortText = rank + std::string(1, rankOf(symbol)) + seriesKey(symbol.name);
         const RoutineSymbol* routine = routineOf(&symbol);
         if (!routine) return;
         if (callFollows) return;
@@ -400,6 +420,8 @@ class Completer {
     Scope scope_;
     Cursor cursor_;
     CompletionList list_;
+    std::string
+        firstDropped_; ///< `sortText` of the first item beyond the limit; empty: none has been dropped
 };
 
 } // namespace

@@ -122,15 +122,17 @@ std::vector<const Symbol*> Scope::visible(const Cancel* cancel, std::string_view
     if (isCancelled(cancel)) return found;
     globals = file_.task ? &snapshot_.globals(*file_.task) : nullptr;
     if (file_.task) {
+        // The table has each name once; names of them all, or a set of them, would cost more than the rest of the answer.
         const bool areUnique = snapshot_.hasUniqueGlobals(*file_.task);
-        // The table has each name once; a set of them all would cost more than the rest of the answer.
+        std::unordered_set<const Symbol*> hiddenGlobals;
+        for (const std::string& name : hidden)
+            if (const Symbol* global = findIn(*globals, name)) hiddenGlobals.insert(global);
         for (const Module* module : file_.task->modules) {
             if (isCancelled(cancel)) return found;
             inModule(*module, [&](const Symbol& symbol) {
                 if (symbol.isLocal || symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
-                const std::string folded = foldName(symbol.name);
-                if (!hidden.contains(folded) && (areUnique || findIn(*globals, folded) == &symbol))
-                    found.push_back(&symbol);
+                const bool isGlobal = areUnique || findIn(*globals, foldName(symbol.name)) == &symbol;
+                if (isGlobal && !hiddenGlobals.contains(&symbol)) found.push_back(&symbol);
                 return false;
             });
         }

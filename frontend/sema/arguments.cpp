@@ -163,12 +163,14 @@ std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<
 
 // Reports about arguments that are only in the wrong place.
 void Arguments::takeBack(const std::vector<const Expr*>& moved) {
+    std::vector<diag::CauseId> causes;
+    for (const ReportedMisfit& reported : reports_.misfits()) {
+        const bool aboutArgument = reported.misfit == Misfit::Access || reported.misfit == Misfit::Kind;
+        if (aboutArgument && std::find(moved.begin(), moved.end(), reported.node) != moved.end())
+            causes.push_back(reported.cause);
+    }
     reports_.collected()->retract([&](const diag::Diagnostic& d) {
-        const bool aboutArgument = d.code == Code::ArgumentClass || d.code == Code::ArgumentNotVariable ||
-                                   d.code == Code::ArgumentNotWhole || d.code == Code::ArgumentAlternatives ||
-                                   d.code == Code::NonValueInExpression;
-        return aboutArgument &&
-               std::any_of(moved.begin(), moved.end(), [&](const Expr* e) { return range(*e) == d.range; });
+        return std::find(causes.begin(), causes.end(), d.cause) != causes.end();
     });
 }
 
@@ -323,7 +325,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
                                           (mode == ParamMode::Inout && persistent && !routine.predefined));
     if (mustBeWhole && !place.whole) {
         report(say::ArgumentNotWhole, range(*bound.value),
-               {bound.param->name, routine.name, "'" + root.name + "'"});
+               {bound.param->name, routine.name, "'" + root.name + "'"}, {Misfit::Kind, *bound.value});
         return;
     }
     if (!routine.traits.has(Trait::Inspects)) scopes_.markAssigned(root); // IsVar and their like only look
@@ -361,7 +363,7 @@ bool Arguments::checkClass(const RoutineSymbol& routine, const BoundArg& bound, 
     const char* expected = missingClass(bound.param->accepts, found);
     if (!expected) return true;
     report(say::ArgumentClass, range(*bound.value),
-           {bound.param->name, routine.name, typeName(found), expected});
+           {bound.param->name, routine.name, typeName(found), expected}, {Misfit::Kind, *bound.value});
     return false;
 }
 

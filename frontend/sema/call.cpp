@@ -391,7 +391,8 @@ size_t CallBinder::chooseAlternative(BoundCall& call, const Argument& arg, size_
     std::string expected;
     for (size_t i = first; i < end; ++i)
         expected += (i == first ? "'" : " or '") + typeName(routine.params[i]->type) + "'";
-    report(say::ArgumentAlternatives, range(e), {routine.name, typeName(*t.info), expected});
+    report(say::ArgumentAlternatives, range(e), {routine.name, typeName(*t.info), expected},
+           {Misfit::Kind, e});
     return first;
 }
 

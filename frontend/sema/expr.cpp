@@ -108,7 +108,7 @@ Typed Expressions::placeValue(const Expr& e) {
         break;
     default: return {&out};
     }
-    report(say::NonValueInExpression, range(e), {text(e), type.name});
+    report(say::NonValueInExpression, range(e), {text(e), type.name}, {Misfit::Kind, e});
     nonValueReported_ = true;
     return errorExpr(e);
 }

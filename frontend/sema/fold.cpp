@@ -178,7 +178,9 @@ bool Folding::foldArithmetic(const BinaryExpr& e, double a, double b, bool isDnu
             report(say::IntegerOperands, range(e.opToken), {text(e.opToken)});
             return false;
         }
-        out = e.op == BinaryOp::IntDiv ? std::trunc(a / b) : std::fmod(a, b);
+        out = std::fmod(a, b); // exact, as the multiple of b that it leaves
+        if (e.op == BinaryOp::IntDiv)
+            out = static_cast<double>(std::round((static_cast<long double>(a) - out) / b));
         break;
     }
     }

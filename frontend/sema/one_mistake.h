@@ -29,7 +29,8 @@ std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module*
                                 const std::vector<const diag::Diagnostic*>& said,
                                 std::span<const ReportedMisfit> misfits);
 
-/// When everything is reported: a line that lacks its semicolon and whose callee or last word is not known is one mistake.
-void mergeUnfinishedLines(diag::Sink& sink);
+/// When everything is reported: a report about a line that lacks its semicolon, and the one that says so, have one cause and
+/// become one report.
+void mergeLineCauses(diag::Sink& sink);
 
 } // namespace rapid::sema

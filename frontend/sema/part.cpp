@@ -12,8 +12,32 @@ using namespace syntax;
 diag::Diagnostic& Reports::report(Code code, SourceRange where, std::span<const std::string> args) {
     if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
     diag::Diagnostic& d = (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
-    d.cause = diag::CauseId{++lastCause_};
+    d.cause = causeInLine(code, where);
     return d;
+}
+
+/// Of a new report: its own, or that of the line which lacks its semicolon, for the first report about the words of that line.
+diag::CauseId Reports::causeInLine(Code code, SourceRange where) {
+    const diag::CauseId own{++lastCause_};
+    const auto& lines = context_.tree->unfinishedLines;
+    if (lines.empty()) return own;
+    const auto line = std::lower_bound(lines.begin(), lines.end(), where.end,
+                                       [](const auto& one, uint32_t end) { return one.end < end; });
+    if (line == lines.end() || !isOfUnfinished(code, where, line->end)) return own;
+    const diag::CauseId cause{line->cause};
+    return lineCauses_.insert(cause).second ? cause : own;
+}
+
+/// An error in the words of a line that also lacks its semicolon, at `end`: a line that is being typed.
+bool Reports::isOfUnfinished(Code code, SourceRange where, uint32_t end) const {
+    constexpr Code kLastWord[] = {Code::UnknownName, Code::UnknownLabel, Code::UnknownParameter,
+                                  Code::NotAProcedure};
+    constexpr uint32_t kLongLine = 300;
+    if (where.end == end)
+        return std::find(std::begin(kLastWord), std::end(kLastWord), code) != std::end(kLastWord);
+    if (code != Code::UnknownProcedure || end - where.end > kLongLine) return false;
+    const std::string_view between = context_.tree->source->text().substr(where.end, end - where.end);
+    return between.find_first_of("\r\n") == std::string_view::npos;
 }
 
 void Reports::noteMisfit(const diag::Diagnostic& diagnostic, const Subject& subject) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -131,18 +132,6 @@ bool isRestOfRoutine(const SyntaxTree& tree, const Decl& decl) {
     for (TokenIndex i = decl.first; i <= decl.last; ++i)
         if (kEnds.has(tree.tokens[i].kind)) return true;
     return false;
-}
-
-/// An error in the words of a line that also lacks its semicolon: a line that is being typed.
-bool isOfUnfinished(const Diagnostic& d, uint32_t end) {
-    constexpr Code kLastWord[] = {Code::UnknownName, Code::UnknownLabel, Code::UnknownParameter,
-                                  Code::NotAProcedure};
-    constexpr uint32_t kLongLine = 300;
-    if (d.range.end == end)
-        return std::find(std::begin(kLastWord), std::end(kLastWord), d.code) != std::end(kLastWord);
-    if (d.code != Code::UnknownProcedure || d.range.end > end || end - d.range.end > kLongLine) return false;
-    return d.file->text().substr(d.range.end, end - d.range.end).find_first_of("\r\n") ==
-           std::string_view::npos;
 }
 
 } // namespace
@@ -289,7 +278,7 @@ void Repeats::mergeCauses() {
             fate[d.cause] = std::nullopt;
         fate[repeat.members.front().cause] = leadOf(repeat);
     }
-    if (fate.empty()) return mergeUnfinishedLines(state_.sink);
+    if (fate.empty()) return mergeLineCauses(state_.sink);
     state_.sink.revise([&](Diagnostic& d) {
         const auto found = fate.find(d.cause);
         if (found == fate.end()) return true;
@@ -297,30 +286,26 @@ void Repeats::mergeCauses() {
         d = *std::exchange(found->second, std::nullopt); // once, were it there twice
         return true;
     });
-    mergeUnfinishedLines(state_.sink);
+    mergeLineCauses(state_.sink);
 }
 
-void mergeUnfinishedLines(diag::Sink& sink) {
-    using LineEnd = std::pair<const SourceFile*, uint32_t>;
-    std::map<LineEnd, bool>
-        ends; // of lines without their semicolon, and whether something else is reported there
+void mergeLineCauses(diag::Sink& sink) {
+    std::map<diag::CauseId, SourceRange> ends; // of lines without their semicolon
     for (const Diagnostic& d : sink.all())
-        if (d.code == Code::MissingSemicolon) ends.emplace(LineEnd(d.file.get(), d.range.begin), false);
+        if (d.code == Code::MissingSemicolon) ends.emplace(d.cause, d.range);
     if (ends.empty()) return;
-    bool any = false;
+    std::set<diag::CauseId> merged;
     sink.revise([&](Diagnostic& d) {
-        if (d.severity != diag::Severity::Error || d.code == Code::MissingSemicolon) return true;
-        const auto end = ends.lower_bound({d.file.get(), d.range.end});
-        if (end == ends.end() || end->first.first != d.file.get() || end->second ||
-            !isOfUnfinished(d, end->first.second))
+        const auto end = ends.find(d.cause);
+        if (d.severity != diag::Severity::Error || d.code == Code::MissingSemicolon || end == ends.end())
             return true;
-        d.notes.push_back({d.file, {end->first.second, end->first.second}, "and ';' is missing here"});
-        return end->second = any = true;
+        d.notes.push_back({d.file, end->second, "and ';' is missing here"});
+        merged.insert(d.cause);
+        return true;
     });
-    if (!any) return;
-    sink.revise([&](const Diagnostic& d) {
-        return d.code != Code::MissingSemicolon || !ends[{d.file.get(), d.range.begin}];
-    });
+    if (merged.empty()) return;
+    sink.revise(
+        [&](const Diagnostic& d) { return d.code != Code::MissingSemicolon || !merged.contains(d.cause); });
 }
 
 } // namespace rapid::sema

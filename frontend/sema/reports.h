@@ -3,6 +3,8 @@
 
 #include "frontend/sema/contexts.h"
 
+#include <set>
+
 namespace rapid::sema {
 
 /// How a node of the tree does not fit the declaration of what it uses.
@@ -13,6 +15,7 @@ enum class Misfit : uint8_t {
     NotRecord, ///< a component
     Aggregate, ///< a list of values for data of one value
     Access,    ///< data are changed that are not declared so
+    Kind,      ///< its place does not take data of this kind: no value, an entire array, several types
 };
 
 /// A misfit that was reported. Another mistake, such as the type of a declaration, may be its cause.
@@ -56,6 +59,9 @@ class Reports {
     SourceRange quietLine() const { return quietTree_ == context_.tree ? quietLine_ : SourceRange{}; }
 
   private:
+    diag::CauseId causeInLine(Code code, SourceRange where);
+    bool isOfUnfinished(Code code, SourceRange where, uint32_t end) const;
+
     diag::Sink& sink_;
     const Context& context_;
     diag::Sink* collect_ = nullptr;
@@ -63,6 +69,7 @@ class Reports {
     const syntax::SyntaxTree* quietTree_ = nullptr; ///< that it is in
     bool muted_ = false;
     uint32_t lastCause_ = 0;
+    std::set<diag::CauseId> lineCauses_; ///< that a report of this check has
     std::vector<ReportedMisfit> misfits_;
     diag::Diagnostic unsaid_;
 };

@@ -200,7 +200,7 @@ std::vector<diag::Diagnostic> Session::diagnostics() const {
         all.add(task.whole);
     }
     all.add(state_->across);
-    mergeUnfinishedLines(all);
+    mergeLineCauses(all);
     return all.sorted();
 }
 

@@ -321,6 +321,13 @@ struct SyntaxTree {
     /// Bytes of a line that count as one in unclearLines: the mistakes of a file in one line have nothing to do with each
     /// other.
     static constexpr uint32_t kUnclearReach = 500;
+    /// Where the line lacks its semicolon, in order. A report of the checker about its last word or its callee has the cause of
+    /// the one that says so: both are one mistake.
+    struct UnfinishedLine {
+        uint32_t end;
+        uint32_t cause; ///< diag::CauseId of the report
+    };
+    std::vector<UnfinishedLine> unfinishedLines;
     bool retagged =
         false; ///< some tokens are not what the text alone says, or the text cannot be read: mistakes
 

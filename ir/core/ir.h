@@ -250,6 +250,7 @@ struct Native {
     bool finite = false;  ///< plain; the result is never infinite or NaN
     bool bounded =
         false; ///< the result exceeds the largest magnitude among the numbers it takes by at most 1
+    bool whole = false; ///< the result is a whole number of at most 52 bits
 };
 
 // ---- Module ----------------------------------------------------------------------------------------------

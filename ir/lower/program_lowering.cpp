@@ -386,6 +386,7 @@ uint32_t ProgramLowering::nativeFor(const RoutineSymbol& symbol) {
                       (isGiven(symbol, "persbool") || isGiven(symbol, "persboolbreak")));
     native.finite = symbol.traits.has(sema::Trait::Finite);
     native.bounded = symbol.traits.has(sema::Trait::Bounded);
+    native.whole = symbol.traits.has(sema::Trait::Whole);
     return addNative(std::move(native));
 }
 
@@ -438,6 +439,7 @@ uint32_t ProgramLowering::makeReset(uint32_t taskIndex) {
     routine.exported = true;
     ir::Builder b(module_, routine);
     b.setBlock(b.addBlock("entry"));
+    b.charge(1); // in every profile alike
     const size_t count = module_.globals.size();
     for (size_t i = 0; i < count; ++i) {
         if (module_.globals[i].kind != ir::GlobalKind::Var || module_.globals[i].task != taskIndex) continue;
@@ -463,6 +465,7 @@ uint32_t ProgramLowering::makeEmptyEntry(uint32_t taskIndex) {
     routine.displayName = "$entry";
     ir::Builder b(module_, routine);
     b.setBlock(b.addBlock("entry"));
+    b.charge(1);
     b.ret();
     module_.routines.push_back(std::move(routine));
     return static_cast<uint32_t>(module_.routines.size() - 1);

@@ -13,6 +13,7 @@ namespace {
 /// Rounds through the routine after which what still grows counts as unlimited; beyond this size locals are not followed.
 constexpr unsigned kExactRounds = 5;
 constexpr size_t kLongRoutine = 50'000;
+constexpr int kWholeBits = 52; ///< of what a native marked `whole` returns
 
 /// Rounded to the type, as the instruction does: rounding is monotone, so a bound stays one.
 double rounded(TypeId type, double value) {
@@ -243,6 +244,7 @@ ValueBounds::Bound ValueBounds::boundOfCall(const Inst& call) const {
     const double limit = largest(valueType(call));
     if (call.op != Op::CallNative) return {limit, false};
     const Native& native = module_.natives[call.index];
+    if (native.whole) return {std::ldexp(1.0, kWholeBits), true};
     const double most = native.finite || native.nativeClass == NativeClass::Const ? limit : kUnbounded;
     if (!native.bounded) return {most, false};
     double given = 0;

@@ -258,6 +258,7 @@ class ModuleParser {
         native.watches = in_.takeWord("watches");
         native.finite = in_.takeWord("finite");
         native.bounded = in_.takeWord("bounded");
+        native.whole = in_.takeWord("whole");
         module_.natives.push_back(std::move(native));
         return in_.endOfLine();
     }

@@ -114,8 +114,8 @@ void printNative(Out& out, const Native& native) {
         native.nativeClass == NativeClass::Const ? "const" : "plain", typeName(native.result));
     for (size_t i = 0; i < native.params.size(); ++i)
         put(out, "{}{}", i ? ", " : "", typeName(native.params[i]));
-    put(out, "){}{}{}\n", native.watches ? " watches" : "", native.finite ? " finite" : "",
-        native.bounded ? " bounded" : "");
+    put(out, "){}{}{}{}\n", native.watches ? " watches" : "", native.finite ? " finite" : "",
+        native.bounded ? " bounded" : "", native.whole ? " whole" : "");
 }
 
 class RoutinePrinter {

@@ -49,6 +49,11 @@ void Belt::setSpeed(Time time, double speed) {
         pieces_.pop_front();
 }
 
+void Belt::restore(Time time, double position, double speed, double target) {
+    pieces_ = {{time, position, speed, 0}};
+    setSpeed(time, target);
+}
+
 Time Belt::whenAt(double position, Time from) const {
     Time begin = from;
     for (;;) {

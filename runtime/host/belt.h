@@ -16,6 +16,8 @@ class Belt {
 
     /// From `time` on towards this speed; not before the call before.
     void setSpeed(Time time, double speed);
+    /// It was there at this time, with this speed on its way to `target`; what was before is forgotten.
+    void restore(Time time, double position, double speed, double target);
     double target() const { return target_; }
     /// At any of the latest 256 changes of speed, and later.
     double position(Time time) const;

@@ -236,6 +236,7 @@ bool Controller::closeOutputs() {
     bool complete = log_.closeJson();
     if (trace_) complete = trace_->close() && complete;
     if (signalsWriter_) complete = signalsWriter_->close() && complete;
+    if (errorsWriter_) complete = errorsWriter_->close() && complete;
     return complete;
 }
 
@@ -473,6 +474,10 @@ void Controller::perform(const StimulusItem& item) {
     case StimulusKind::PpToMain: actionPpToMain(); return;
     case StimulusKind::StepForward: actionStep(true); return;
     case StimulusKind::StepBackward: actionStep(false); return;
+    case StimulusKind::PendantLost:
+    case StimulusKind::PendantFound: panel_.setConnected(item.kind == StimulusKind::PendantFound); return;
+    case StimulusKind::ViewsFull:
+    case StimulusKind::ViewsFree: panel_.setRoomForViews(item.kind == StimulusKind::ViewsFree); return;
     case StimulusKind::DeviceLost:
     case StimulusKind::DeviceFound:
         io_.devices().setContact(item.text, item.kind == StimulusKind::DeviceFound);

@@ -38,6 +38,7 @@ class ModuleSaver;
 class RunReports;
 class SavedState;
 class SignalsWriter;
+class ErrorsWriter;
 class TraceMerger;
 class TraceWriter;
 
@@ -67,6 +68,7 @@ class Controller final : public DebugHost {
         return *motions_[static_cast<std::size_t>(std::max(task.motionGroup(), 0))];
     }
     MechanicalUnits& units() { return units_; }
+    const MechanicalUnits& units() const { return units_; }
     SteppedArm& arm(const Task& task) override { return motion(task); }
     void forEachArm(const std::function<void(SteppedArm&)>& action) override;
     HandleTable<ClockObject>& clocks() { return clocks_; }
@@ -236,6 +238,7 @@ class Controller final : public DebugHost {
     std::unique_ptr<TraceWriter> trace_;
     std::unique_ptr<TraceMerger> traceMerger_; // between several groups and the trace
     std::unique_ptr<SignalsWriter> signalsWriter_;
+    std::unique_ptr<ErrorsWriter> errorsWriter_;
     std::unique_ptr<RunReports> reports_;
     HandleTable<ClockObject> clocks_;
     SystemSettings settings_;

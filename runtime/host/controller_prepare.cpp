@@ -249,7 +249,7 @@ ExitStatus Controller::openFiles() {
         return ExitStatus::BadUsage;
     }
     if (!options_.outputs.trace.empty()) {
-        trace_ = std::make_unique<TraceWriter>();
+        trace_ = std::make_unique<TraceWriter>(options_.outputs.motors);
         if (!trace_->open(options_.outputs.trace, error)) {
             print("--trace: " + error);
             return ExitStatus::BadUsage;
@@ -264,6 +264,17 @@ ExitStatus Controller::openFiles() {
         }
         io_.addListener(-1, [this](SignalId id, double, double value) {
             signalsWriter_->change(scheduler_.now(), io_.config(id).name, value);
+        });
+    }
+    if (!options_.outputs.errors.empty()) {
+        errorsWriter_ = std::make_unique<ErrorsWriter>();
+        if (!errorsWriter_->open(options_.outputs.errors, error)) {
+            print("--errors: " + error);
+            return ExitStatus::BadUsage;
+        }
+        scheduler_.setErrorObserver([this](const Task& task, int number) {
+            errorsWriter_->raised(scheduler_.now(), task.name(), task.place(), number,
+                                  log_.errorName(number));
         });
     }
     if (!options_.outputs.events.empty() && !log_.openJson(options_.outputs.events, error)) {

@@ -265,6 +265,31 @@ void Conveyor::watch(double position) {
     schedule();
 }
 
+// ---- Between two processes -------------------------------------------------------------------------------------------
+
+Conveyor::Kept Conveyor::kept() const {
+    Kept kept{isActive_, position(), speed(),    belt_->target(), {queue_.begin(), queue_.end()},
+              {},        lastSync_,  nextObject_};
+    if (link_) kept.connected = link_->origin();
+    return kept;
+}
+
+void Conveyor::restore(const Kept& kept) {
+    isActive_ = kept.isActive;
+    belt_->restore(scheduler_.now(), kept.position, kept.speed, kept.target);
+    queue_.assign(kept.queue.begin(), kept.queue.end());
+    link_ = kept.connected ? std::make_shared<Link>(belt_, settings_, *kept.connected) : nullptr;
+    lastSync_ = kept.lastSync;
+    // The options may say something else now.
+    nextObject_.reset();
+    if (settings_.every > 0) {
+        const double furthest = kept.position + settings_.every;
+        nextObject_ = std::clamp(kept.nextObject.value_or(furthest), kept.position, furthest);
+    }
+    showSignals();
+    schedule();
+}
+
 // ---- Time ------------------------------------------------------------------------------------------------------------
 
 /// The next moment at which an object comes to a place that matters.

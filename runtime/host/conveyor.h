@@ -97,6 +97,17 @@ class Conveyor {
         lostActions_.push_back(std::move(action));
     }
 
+    // ---- between two processes ----
+    /// Belt and objects; positions are those of the belt.
+    struct Kept {
+        bool isActive = false;
+        double position = 0, speed = 0, target = 0;
+        std::vector<double> queue; ///< positions at which each object is at the origin
+        std::optional<double> connected, lastSync, nextObject;
+    };
+    Kept kept() const;
+    void restore(const Kept& kept);
+
     /// Notified when something changes that a task may wait for.
     WaitQueue& changed() { return changed_; }
     /// changed() is also notified when the connected object comes to this position.

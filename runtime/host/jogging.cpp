@@ -25,7 +25,18 @@ template <class Figures> double largestOf(const Figures& figures) {
     return most;
 }
 
+/// Within what the computation of a posture may differ.
+bool isSamePosture(const motion::JointTarget& a, const motion::JointTarget& b) {
+    constexpr double kTolerance = 0.01; // degrees, mm
+    for (std::size_t i = 0; i < a.robax.size(); ++i)
+        if (i >= b.robax.size() || std::fabs(a.robax[i] - b.robax[i]) > kTolerance) return false;
+    for (std::size_t i = 0; i < a.extax.size(); ++i)
+        if (std::fabs(a.extax[i] - b.extax[i]) > kTolerance) return false;
+    return true;
+}
+
 bool isSame(const JogOrder& a, const JogOrder& b) {
+    if (a.goal || b.goal) return a.goal && b.goal && isSamePosture(*a.goal, *b.goal);
     return a.joints == b.joints && a.external == b.external && a.line == b.line && a.turn == b.turn &&
            a.frame == b.frame && a.increment == b.increment && sameTool(a.frames, b.frames) &&
            sameFrames(a.frames, b.frames);
@@ -39,6 +50,24 @@ bool JogOrder::isLinear() const {
 
 bool JogOrder::moves() const {
     return isLinear() || largestOf(joints) > 0 || largestOf(external) > 0;
+}
+
+JogOrder jogOrderTo(const motion::JointTarget& from, const motion::JointTarget& goal) {
+    JogOrder order;
+    double most = 0;
+    for (std::size_t i = 0; i < from.robax.size() && i < goal.robax.size(); ++i)
+        most = std::max(most, std::fabs(order.joints[i] = goal.robax[i] - from.robax[i]));
+    for (std::size_t i = 0; i < from.extax.size(); ++i)
+        if (motion::isConnected(from.extax[i]) && motion::isConnected(goal.extax[i]))
+            most = std::max(most, std::fabs(order.external[i] = goal.extax[i] - from.extax[i]));
+    order.goal = goal;
+    if (most < 1e-6) return order; // there already
+    for (double& share : order.joints)
+        share /= most;
+    for (double& share : order.external)
+        share /= most;
+    order.increment = most;
+    return order;
 }
 
 Jogging::Jogging(Scheduler& scheduler, MotionDriver& motion) : scheduler_(scheduler), motion_(motion) {
@@ -67,7 +96,7 @@ std::string Jogging::order(const JogOrder& order) {
         return "the TCP and single axes do not move together";
     if (order.increment && !(*order.increment > 0 && *order.increment <= 10'000))
         return "an increment is greater than 0 and at most 10000 mm or degrees";
-    if (isActive_ && isSame(order, order_) && !order.increment && !next_) {
+    if (isActive_ && isSame(order, order_) && (!order.increment || order.goal) && !next_) {
         until_ = scheduler_.now() + order.holdTime;
         isStopping_ = false;
         return {};
@@ -105,7 +134,8 @@ void Jogging::begin() {
         const double tcpSpeed = isZero(order_.line) ? JogSpeeds::kTurn : JogSpeeds::kLine;
         remaining_ = *order_.increment / (order_.isLinear() ? tcpSpeed : axisSpeed_);
     }
-    until_ = order_.increment ? kNever : scheduler_.now() + order_.holdTime;
+    const bool lasts = order_.increment && !order_.goal;
+    until_ = lasts ? kNever : scheduler_.now() + order_.holdTime;
     event_ = scheduler_.after(kPeriod, [this] { step(); });
 }
 

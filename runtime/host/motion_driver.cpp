@@ -2,6 +2,7 @@
 
 #include "runtime/host/synchronised_group.h"
 #include "runtime/log/event_log.h"
+#include "runtime/motion/motor_side.h"
 #include "runtime/motion/path.h"
 #include "runtime/sched/error_search.h"
 #include "runtime/sched/task.h"
@@ -88,7 +89,9 @@ void MotionDriver::advance(Time time) {
             step = std::min(time, std::max<Time>(*next, system_.now()));
         system_.advanceModifiers(step);
         while (!traces_.empty() && nextSample_ <= step) {
-            const motion::MotionState state = system_.sample(nextSample_);
+            motion::MotionState state = system_.sample(nextSample_);
+            if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
+                state.motors = motion::motorSide(system_, state, nextSample_);
             for (TraceSink* trace : traces_)
                 trace->sample(nextSample_, unitName_, state);
             nextSample_ += TraceSink::kPeriod;

@@ -16,6 +16,8 @@ struct PanelSwitches {
     bool emergencyStop = false;  ///< from the button until the motors are on again, or its reset is confirmed
     bool simulationMode = false; ///< system input SimMode
     bool errorReset = false;     ///< system input ResetError since the last error
+    bool backupInProgress = false,
+         backupFailed = false; ///< the latest backup is being written; could not be written
 };
 
 } // namespace rt

@@ -13,6 +13,7 @@ void guardOutputs(const RunOptions& options, rapid::config::OutputGuard& guard) 
     guard.writes(options.outputs.trace, "--trace");
     guard.writes(options.outputs.signals, "--signals");
     guard.writes(options.outputs.events, "--events");
+    guard.writes(options.outputs.errors, "--errors");
     guard.writes(options.outputs.picture, "--picture");
     guard.writes(options.outputs.report, "--report");
     if (options.state.empty()) return;

@@ -151,9 +151,16 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
         .typeName("FILE.csv");
     command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms")
         .typeName("FILE.csv");
+    command.addFlag(
+        "--motors", options.outputs.motors,
+        "with --trace: add the positions of the motors (m1 to m6), which recordings of real robots show");
     command.add("--signals", options.outputs.signals, "write every change of a signal").typeName("FILE.csv");
     command.add("--events", options.outputs.events, "write the event log, an object a line")
         .typeName("FILE.jsonl");
+    command
+        .add("--errors", options.outputs.errors,
+             "write every error that is raised and where, also those that handlers take")
+        .typeName("FILE.csv");
     command
         .add("--report", options.outputs.report,
              "write a page with the path in 3D, speeds, signals, events and a table of movements")

@@ -15,7 +15,8 @@ class Command;
 
 /// Files that a run writes, by path; "" = not asked for.
 struct RunOutputs {
-    std::string trace, signals, events;
+    std::string trace, signals, events, errors;
+    bool motors = false; ///< the trace has the positions of the motors, too
     std::string picture, report;
     std::string compare;  ///< a recording to compare with: it is read
     bool summary = false; ///< prints what slowed the movements, at the end

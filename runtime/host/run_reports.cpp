@@ -111,7 +111,7 @@ void RunReports::printSummary(const std::vector<report::RobotReport>& robots) co
     const std::pair<const char*, const std::string&> files[] = {
         {"trace", options_.outputs.trace},   {"signals", options_.outputs.signals},
         {"events", options_.outputs.events}, {"picture", options_.outputs.picture},
-        {"report", options_.outputs.report},
+        {"report", options_.outputs.report}, {"errors", options_.outputs.errors},
     };
     const bool hasTable = std::any_of(robots.begin(), robots.end(),
                                       [](const auto& robot) { return !robot.analysis.moves.empty(); });

@@ -46,8 +46,8 @@ SystemOutputs::State SystemOutputs::stateOf(std::string_view word) {
         {"TCPSpeed", State::Speed},
         {"TCPSpeedRef", State::Speed},
         {"SpeedOverride", State::SpeedOverride},
-        {"BackupError", State::Never},
-        {"BackupInProgress", State::Never},
+        {"BackupError", State::BackupError},
+        {"BackupInProgress", State::BackupInProgress},
         {"CollAvoidance", State::Never},
         {"CPUFanNotRun", State::Never},
         {"EnergySaving", State::Never},
@@ -156,6 +156,8 @@ double SystemOutputs::valueOf(const Output& output) {
     case State::UnitActive: return isActive(output.unit) ? 1 : 0;
     case State::PointerMoved: return pointerMoved_ ? 1 : 0;
     case State::SimulationMode: return panel.simulationMode ? 1 : 0;
+    case State::BackupInProgress: return panel.backupInProgress ? 1 : 0;
+    case State::BackupError: return panel.backupFailed ? 1 : 0;
     case State::NotMoving:
     case State::SpeedLimited:
     case State::PathLost:

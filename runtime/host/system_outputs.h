@@ -47,6 +47,8 @@ class SystemOutputs {
         PointerMoved,
         PathLost,
         SimulationMode,
+        BackupInProgress,
+        BackupError,
         Speed,         ///< of the TCP, m/s
         SpeedOverride, ///< per cent
     };

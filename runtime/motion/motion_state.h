@@ -14,6 +14,7 @@ struct MotionState {
     std::array<uint8_t, robot::kMostJoints> axisNumbers{1, 2, 3, 4,
                                                         5, 6, 7}; ///< RAPID's number of each joint
     Joints jointSpeed{};                                          ///< deg/s
+    Joints motors = Joints::zeros(0); ///< deg, as the motors have them; empty unless a trace asks for it
     ExternalAxes extax = kNoExternalAxes;
     Pose tcp;            ///< TCP of the active tool in world
     double tcpSpeed = 0; ///< mm/s relative to the work object

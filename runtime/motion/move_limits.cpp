@@ -12,12 +12,15 @@ constexpr double kUnlimited = 1e300;
 std::array<double, robot::kMostJoints> loadShares(const CarriedLoad& load, const robot::RobotModel& model) {
     std::array<double, robot::kMostJoints> shares{};
     shares.fill(1);
-    if (!(load.mass > 0) || !(model.payloadKg > 0)) return shares;
+    // The load of the recordings is in the identified figures already.
+    const double further = load.mass - model.dynamics.load;
+    if (!(further > 0) || !(model.payloadKg > 0)) return shares;
     constexpr double kArmMass = 2;       // of the moving arm, thought in the wrist: in rated payloads
     constexpr double kRatedOffset = 0.2; // m from the flange to the centre of a rated payload, at least
     const double offset = std::max(kRatedOffset, 0.001 * model.geometry.c4);
-    const double ofMass = 1 / (1 + load.mass / (kArmMass * model.payloadKg));
-    const double ofInertia = 1 / (1 + load.inertia / (kArmMass * model.payloadKg * offset * offset));
+    const double ofMass = 1 / (1 + further / (kArmMass * model.payloadKg));
+    const double inertia = load.inertia * further / load.mass;
+    const double ofInertia = 1 / (1 + inertia / (kArmMass * model.payloadKg * offset * offset));
     for (std::size_t i = 0; i < shares.size(); ++i)
         shares[i] = model.axisNumbers[i] >= 4 && model.axisNumbers[i] <= 6 ? ofInertia : ofMass;
     return shares;

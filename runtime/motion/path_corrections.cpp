@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace motion {
 
@@ -31,15 +32,14 @@ void PathCorrections::setOffset(const Vec3& offset) {
 }
 
 void PathCorrections::setOffsetAhead(const Vec3& offset, double mm) {
-    hasPlace_ = hasPlace_ && isActive(); // what was passed before does not count
-    constexpr std::size_t kMost = 4096;  // newer ones take the place of the last
+    if (!isActive()) forgetPlace();
+    constexpr std::size_t kMost = 4096; // newer ones take the place of the last
     if (ahead_.size() >= kMost) ahead_.pop_back();
     ahead_.push_back({way_ + mm, offset});
 }
 
 /// Corrections whose place the TCP has reached are in force.
-void PathCorrections::takeAhead(const PlannedMoment& planned) {
-    if (hasPlace_) way_ += planned.distanceFrom(run_, s_);
+void PathCorrections::takeAhead() {
     for (; !ahead_.empty() && ahead_.front().at <= way_; ahead_.pop_front())
         setOffset(ahead_.front().offset);
 }
@@ -55,12 +55,12 @@ bool PathCorrections::concerns(const PlannedMoment& planned) const {
 }
 
 void PathCorrections::advance(const PlannedMoment& planned) {
-    takeAhead(planned);
+    const Step step = stepTo(planned);
+    way_ += step.way;
+    takeAhead();
     const bool isCorrected = concerns(planned);
     if (std::exchange(wasCorrected_, isCorrected) != isCorrected) hasJumped_ = true;
-    if (std::exchange(run_, planned.run) != planned.run) hasJumped_ = true; // perhaps another direction
-    s_ = planned.s;
-    hasPlace_ = true;
+    if (step.isOtherRun) hasJumped_ = true;
     const Vec3 target = isCorrected ? rotate(planned.pathFrame(), offset_) : Vec3{};
     if (std::exchange(hasJumped_, false))
         return shown_.jumpTo(planned.time, target, blendTime(shown_.now() - target, shown_.rate()));
@@ -68,26 +68,8 @@ void PathCorrections::advance(const PlannedMoment& planned) {
     shown_.advance(planned.time, target, kPeriod * pace);
 }
 
-Pose PathCorrections::displaced(const PlannedMoment& planned, const Pose& tcp) const {
-    return {tcp.pos + shown_.at(planned.time), tcp.rot};
-}
-
-void PathCorrections::pathReplaced() {
-    shown_.reset();
-    ahead_.clear();
-    hasPlace_ = false;
-    hasJumped_ = true;
-}
-
-void PathCorrections::pathStored() {
-    shown_.store();
-    hasPlace_ = false;
-    hasJumped_ = true;
-}
-
-void PathCorrections::pathRestored() {
-    shown_.restore();
-    hasPlace_ = false;
+void PathCorrections::otherPath(bool isNew) {
+    if (isNew) ahead_.clear();
     hasJumped_ = true;
 }
 

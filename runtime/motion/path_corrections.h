@@ -1,11 +1,11 @@
 #pragma once
 // PathCorrections: an offset in path coordinates that the program or a sensor sets, for the movements that carry modification().
 
-#include "runtime/motion/blended_offset.h"
+#include "runtime/motion/path_offset.h"
 
 namespace motion {
 
-class PathCorrections final : public PathModifier {
+class PathCorrections final : public PathOffset {
   public:
     PathCorrections();
     /// mm in the path coordinate system (PlannedMoment::pathFrame), from now on. The arm follows while it moves on its path,
@@ -19,12 +19,6 @@ class PathCorrections final : public PathModifier {
 
     bool isActive() const override;
     void advance(const PlannedMoment& planned) override;
-    Pose displaced(const PlannedMoment& planned, const Pose& tcp) const override;
-    void pathReplaced() override;
-    void pathStored() override;
-    void pathRestored() override;
-    void storedPathsCleared() override { shown_.clearStored(); }
-    void forgetBefore(TimeNs time) override { shown_.forgetBefore(time); }
 
   private:
     struct Corrected final : Modification {
@@ -38,16 +32,13 @@ class PathCorrections final : public PathModifier {
         double at = 0; ///< mm of path since the beginning
         Vec3 offset;
     };
-    void takeAhead(const PlannedMoment& planned);
+    void takeAhead();
+    void otherPath(bool isNew) override;
 
     Vec3 offset_;
     std::deque<Ahead> ahead_; ///< the next one first
     double way_ = 0;          ///< mm of path
-    BlendedOffset shown_;     ///< in world
     bool hasJumped_ = false, wasCorrected_ = false;
-    bool hasPlace_ = false;
-    std::size_t run_ = 0;
-    double s_ = 0;
 };
 
 } // namespace motion

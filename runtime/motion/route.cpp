@@ -304,6 +304,14 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         const Vec3 from = tcpNear(middle - close);
         const Vec3 to = tcpNear(middle + close);
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
+        if (inCorner) { // in the middle of a corner the tool may turn back, slowly there and fast around it
+            constexpr int kParts = 8;
+            double covered = 0;
+            for (int k = 0; k < kParts; ++k)
+                covered += norm(tcpNear(stretch.begin + 4 * step * (k + 1) / kParts) -
+                                tcpNear(stretch.begin + 4 * step * k / kParts));
+            stretch.tcpRate = std::max(stretch.tcpRate, covered / (4 * step));
+        }
         const FrameSetup& earlier = l.path->frames();
         if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
             const auto place = [&](const RoutePoint& point) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace motion {
 
@@ -78,13 +77,12 @@ Vec3 WeavePattern::at(double phase) const {
 void Weaving::advance(const PlannedMoment& planned) {
     const Weave* weave = isOn_ ? planned.find<Weave>() : nullptr;
     const WeavePattern pattern = weave != nullptr ? weave->pattern : WeavePattern{};
-    const double way = std::exchange(hasPlace_, true) ? planned.distanceFrom(run_, s_) : 0;
-    const bool hasJumped = std::exchange(run_, planned.run) != planned.run || !(pattern == pattern_);
-    s_ = planned.s;
+    const Step step = stepTo(planned);
+    const bool hasJumped = step.isOtherRun || !(pattern == pattern_);
     pattern_ = pattern;
     Vec3 target;
     if (pattern.isWeaving()) {
-        phase_ += way / pattern.length;
+        phase_ += step.way / pattern.length;
         blend_ = 0.25 * pattern.length;
         // The path frame has y to the right and z into the workpiece.
         const Vec3 offset = pattern.at(phase_);
@@ -92,28 +90,10 @@ void Weaving::advance(const PlannedMoment& planned) {
         if (weave->isLast) target = target * std::min(1.0, planned.toEnd / blend_);
     }
     if (hasJumped) return shown_.jumpTo(planned.time, target, blend_);
-    shown_.advance(planned.time, target, std::fabs(way));
+    shown_.advance(planned.time, target, std::fabs(step.way));
 }
 
-Pose Weaving::displaced(const PlannedMoment& planned, const Pose& tcp) const {
-    return {tcp.pos + shown_.at(planned.time), tcp.rot};
-}
-
-void Weaving::pathReplaced() {
-    shown_.reset();
-    hasPlace_ = false;
-    pattern_ = {};
-}
-
-void Weaving::pathStored() {
-    shown_.store();
-    hasPlace_ = false;
-    pattern_ = {};
-}
-
-void Weaving::pathRestored() {
-    shown_.restore();
-    hasPlace_ = false;
+void Weaving::otherPath(bool) {
     pattern_ = {};
 }
 

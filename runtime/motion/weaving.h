@@ -1,7 +1,7 @@
 #pragma once
 // Weaving: a pattern that repeats itself along the path, across it (arc welding).
 
-#include "runtime/motion/blended_offset.h"
+#include "runtime/motion/path_offset.h"
 
 namespace motion {
 
@@ -39,33 +39,25 @@ struct Weave final : Modification {
 /// Displaces the movements that carry a Weave while it is on. The pattern goes by the distance along the path: it stops with the
 /// arm, does not depend on the speed, and runs backwards on the way back. When another pattern, another direction or the end of
 /// the process changes the displacement, the difference dies away over a quarter of a cycle.
-class Weaving final : public PathModifier {
+class Weaving final : public PathOffset {
   public:
     /// A new seam: the next cycle begins in the middle.
     void restart() { phase_ = 0; }
     void setOn(bool on) {
-        hasPlace_ = hasPlace_ && isOn_; // what was passed while nothing advanced does not count
+        if (!isOn_) forgetPlace(); // nothing advanced meanwhile
         isOn_ = on;
     }
 
     bool isActive() const override { return isOn_ || !shown_.isNone(); }
     void advance(const PlannedMoment& planned) override;
-    Pose displaced(const PlannedMoment& planned, const Pose& tcp) const override;
-    void pathReplaced() override;
-    void pathStored() override;
-    void pathRestored() override;
-    void storedPathsCleared() override { shown_.clearStored(); }
-    void forgetBefore(TimeNs time) override { shown_.forgetBefore(time); }
 
   private:
+    void otherPath(bool isNew) override;
+
     bool isOn_ = false;
     double phase_ = 0;
     WeavePattern pattern_; ///< of the latest moment
-    bool hasPlace_ = false;
-    std::size_t run_ = 0;
-    double s_ = 0;
-    double blend_ = 1;    ///< mm
-    BlendedOffset shown_; ///< in world
+    double blend_ = 1;     ///< mm
 };
 
 } // namespace motion

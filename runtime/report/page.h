@@ -3,6 +3,7 @@
 
 #include "runtime/report/page_data.h"
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,9 +12,7 @@ namespace rt::report {
 /// HTML with style, script and data inside.
 std::string reportPage(const ReportContent& content);
 
-/// The files of the folder `page`, put into the executable when it is built (embed_page.cmake).
-std::string_view pageFrame();
-std::string_view pageStyle();
-std::string_view pageScript();
+/// The files of the folder `page` as they were when the library was built: frame, style, then the scripts.
+std::span<const std::string_view> pageFiles();
 
 } // namespace rt::report

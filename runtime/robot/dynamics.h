@@ -26,6 +26,10 @@ struct Dynamics {
     std::array<AccelerationLimit, kAxes> axes{};
     double longWindow = 0;  ///< s, first moving average of the speed along the path
     double shortWindow = 0; ///< s, second one
+    double load =
+        0; ///< kg the arm carried when the accelerations were identified: no less is available with them
+    /// mrad between motor and arm when the axis takes its greatest acceleration; 0 where no recording gave it.
+    std::array<double, kAxes> motorDeflection{};
     bool isGiven() const { return axes[0].cap > 0; }
 };
 

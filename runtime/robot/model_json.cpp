@@ -301,6 +301,10 @@ void readDynamics(Reader& in, RobotModel& model) {
     if (!(windows[0] > 0 && windows[1] > 0)) in.fail("field 'smoothing_s' must hold two positive times");
     model.dynamics.longWindow = windows[0];
     model.dynamics.shortWindow = windows[1];
+    model.dynamics.load = in.number(*given, "load_kg", 0.0);
+    if (!(model.dynamics.load >= 0)) in.fail("field 'load_kg' must not be negative");
+    in.numbers(*given, "motor_deflection_mrad", model.dynamics.motorDeflection.data(), model.maxSpeed.size(),
+               false);
     const Json* axes = in.find(*given, "acceleration_rad_s2", true);
     if (axes == nullptr) return;
     if (!axes->is_array() || axes->size() != model.maxSpeed.size())

@@ -24,7 +24,10 @@ constexpr double kSamePlace = 0.5; // rad; a start as near as this to a solution
 constexpr double kLeastBend = 0.2; // rad; a start with the arm stretched would not know which way to bend
 
 constexpr double kBesideSingular = 0.3; // sine of axis 2 or 5 from which on its neighbour is guessed well
-constexpr int kPlacesAround = 8;        // at which that neighbour is tried
+constexpr double kNearSingular = 0.2;   // ... and up to which solutions crowd
+constexpr double kBetween =
+    0.1; // rad; as near as this to a solution nothing is looked for between two of them
+constexpr int kPlacesAround = 8; // at which that neighbour is tried
 
 constexpr std::size_t kUnknowns = 5;
 constexpr int kJudged = 4;        // iterations after which a start that leads nowhere is given up ...
@@ -64,6 +67,25 @@ Ends flipped(Ends ends, bool shoulder, bool wrist) {
         ends.t[2] = -ends.t[2];
         ends.t[3] += std::numbers::pi;
     }
+    return ends;
+}
+
+/// A share of the short way from one to the other, both beside the singularity of shoulder (angle 1) or wrist (angle 2): the
+/// link goes straight there, past the axis about which its neighbour (angle 0 or 3) turns it.
+Ends between(const Ends& from, const Ends& to, double share, std::size_t singular) {
+    Ends ends = from;
+    for (std::size_t k = 0; k < kUnknowns; ++k)
+        ends.t[k] += share * std::remainder(to.t[k] - from.t[k], 2 * std::numbers::pi);
+    const std::size_t neighbour = singular == 1 ? 0 : 3;
+    const auto mixed = [&](double a, double b) { return a + share * (b - a); };
+    const double x = mixed(std::sin(from.t[singular]) * std::cos(from.t[neighbour]),
+                           std::sin(to.t[singular]) * std::cos(to.t[neighbour]));
+    const double y = mixed(std::sin(from.t[singular]) * std::sin(from.t[neighbour]),
+                           std::sin(to.t[singular]) * std::sin(to.t[neighbour]));
+    const double side = std::sin(from.t[singular]) < 0 ? -1 : 1;
+    ends.t[neighbour] = std::atan2(side * y, side * x);
+    const double turn = side * std::asin(std::min(1.0, std::hypot(x, y)));
+    ends.t[singular] = std::cos(from.t[singular]) < 0 ? std::numbers::pi - turn : turn;
     return ends;
 }
 
@@ -439,9 +461,27 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
             }
         }
     };
+    // Two solutions beside the same singularity of shoulder or wrist may have two more between them.
+    const auto tryBetween = [&](std::size_t singular) {
+        const auto isBeside = [&](const Ends& ends) {
+            return std::fabs(std::sin(ends.t[singular])) < kNearSingular;
+        };
+        const std::size_t count = found.count;
+        for (std::size_t a = 0; a < count; ++a) {
+            for (std::size_t b = a + 1; b < count; ++b) {
+                if (!isBeside(found.ends[a]) || !isBeside(found.ends[b])) continue;
+                for (const double share : {0.5, 0.25, 0.75}) {
+                    const Ends ends = between(found.ends[a], found.ends[b], share, singular);
+                    if (!found.hasNear(ends, kBetween)) tryFrom(ends);
+                }
+            }
+        }
+    };
     search(0);
     tryFrom(endsOf(target, seed));
     turnOver();
+    tryBetween(1);
+    tryBetween(2);
     // Solutions come in pairs: an odd number means that one is missing.
     isThorough = true;
     for (double tilt : {0.0, 0.4, -0.4}) {

@@ -56,7 +56,7 @@ Time Scheduler::now() const {
 void Scheduler::moveTo(Time time) {
     if (time <= now_) return;
     now_ = time;
-    if (timeObserver_) timeObserver_(now_);
+    if (observers_.time) observers_.time(now_);
 }
 
 EventToken Scheduler::at(Time time, std::function<void()> action) {
@@ -231,7 +231,7 @@ bool Scheduler::holdStill() {
 }
 
 void Scheduler::waitForCommands() {
-    if (beforeSleep_) beforeSleep_();
+    if (observers_.beforeSleep) observers_.beforeSleep();
     if (inbox_ != nullptr) {
         inbox_->wait(static_cast<int>(kLongestSleep / kMillisecond)); // signals are looked at in between
         inbox_->run();
@@ -300,7 +300,7 @@ void Scheduler::sleepOutside(Time until) {
         files.push_back({wait->fd, wait->events, 0});
     if (inbox_ != nullptr) files.push_back({inbox_->descriptor(), POLLIN, 0});
     const Time ahead = until == kNever ? kNever : until - wallTime();
-    if (ahead > 0 && beforeSleep_) beforeSleep_();
+    if (ahead > 0 && observers_.beforeSleep) observers_.beforeSleep();
     timespec span{};
     const Time onWall =
         ahead < kLongestSleep * pacePercent_ / 100 ? ahead * 100 / pacePercent_ : kLongestSleep;

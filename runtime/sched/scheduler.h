@@ -6,6 +6,7 @@
 #include "runtime/sched/inbox.h"
 #include "runtime/sched/task.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -49,6 +50,8 @@ class Scheduler {
     /// Virtual time, instructions of the running task included.
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
+    /// By how much the wall clock is past virtual time, which keeps step with it; 0 while it does not.
+    Time lateness() const { return paced() ? std::max<Time>(0, wallTime() - now_) * 100 / pacePercent_ : 0; }
     /// Virtual time keeps step with the wall clock (or does not); `percent` of the wall's pace, > 0. At any time.
     void setPace(bool paced, int percent = 100);
     /// The run does not end when nothing is pending: it waits for commands.
@@ -78,10 +81,17 @@ class Scheduler {
     /// Runs until `isOver()` or another end; isOver is asked whenever the scheduler is between tasks.
     RunEnd run(const std::function<bool()>& isOver);
     /// Called whenever virtual time has moved on (trace, motion).
-    void setTimeObserver(std::function<void(Time)> observer) { timeObserver_ = std::move(observer); }
+    void setTimeObserver(std::function<void(Time)> observer) { observers_.time = std::move(observer); }
+    /// Called for each error that is raised, at the statement in progress of the task, before a handler is looked for.
+    void setErrorObserver(std::function<void(const Task&, int number)> observer) {
+        observers_.error = std::move(observer);
+    }
+    void errorRaised(const Task& task, int number) const {
+        if (observers_.error) observers_.error(task, number);
+    }
     /// Called before the thread sleeps for the wall clock or for something outside (flush what people look
     /// at).
-    void setBeforeSleep(std::function<void()> hook) { beforeSleep_ = std::move(hook); }
+    void setBeforeSleep(std::function<void()> hook) { observers_.beforeSleep = std::move(hook); }
     /// Commands of other threads, executed between the tasks; null: none come. Must outlive the runs.
     void setInbox(Inbox* inbox) { inbox_ = inbox; }
     /// While `holds` is true nothing executes and virtual time does not pass; only commands are taken. Asked between the tasks.
@@ -159,8 +169,11 @@ class Scheduler {
     Time anchorVirtual_ = 0;
     int64_t anchorWall_ = 0; // ns of the steady clock
     int pacePercent_ = 100;
-    std::function<void(Time)> timeObserver_;
-    std::function<void()> beforeSleep_;
+    struct Observers {
+        std::function<void(Time)> time;
+        std::function<void()> beforeSleep;
+        std::function<void(const Task&, int)> error;
+    } observers_;
     Inbox* inbox_ = nullptr;
     std::function<bool()> holds_;
 };

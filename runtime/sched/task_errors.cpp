@@ -103,6 +103,7 @@ void Task::noteRaised(int number) {
     while (at != nullptr && isBoundary(*at))
         at = callSeenByUser(at->caller);
     error_.set(number, at, errorDetail_);
+    scheduler_.errorRaised(*this, number);
 }
 
 /// Called by compiled code for a check or RAISE: started again after the system handler, the instruction fails again.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -29,9 +30,22 @@ void SignalsWriter::change(Time time, std::string_view signal, double value) {
     file_.write(fmt::format("{},{},{}\n", formatSeconds(time, 6), signal, shortestNumber(value)));
 }
 
+bool ErrorsWriter::open(const std::string& path, std::string& error) {
+    if (!file_.open(path, error)) return false;
+    file_.write("time_s,task,module,routine,line,column,number,name,file\n");
+    return true;
+}
+
+void ErrorsWriter::raised(Time time, std::string_view task, const SourcePlace& place, int number,
+                          std::string_view name) {
+    file_.write(fmt::format("{},{},{},{},{},{},{},{},\"{}\"\n", formatSeconds(time, 6), task, place.module,
+                            place.routine, place.line, place.column, number, name, place.file));
+}
+
 bool TraceWriter::open(const std::string& path, std::string& error) {
     if (!file_.open(path, error)) return false;
-    file_.write("time_s,unit,j1,j2,j3,j4,j5,j6,e1,e2,e3,e4,e5,e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move\n");
+    file_.write("time_s,unit,j1,j2,j3,j4,j5,j6,e1,e2,e3,e4,e5,e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move");
+    file_.write(withMotors_ ? ",m1,m2,m3,m4,m5,m6\n" : "\n");
     return true;
 }
 
@@ -49,7 +63,15 @@ void TraceWriter::sample(Time time, std::string_view unit, const motion::MotionS
         appendFixed(line, q, 9);
     }
     appendFixed(line, state.tcpSpeed, 4);
-    fmt::format_to(std::back_inserter(line), ",{}\n", state.tag);
+    fmt::format_to(std::back_inserter(line), ",{}", state.tag);
+    if (withMotors_) {
+        std::array<double, 6> motors{}; // of axes that the arm does not have: 0
+        for (std::size_t i = 0; i < state.motors.size(); ++i)
+            if (state.axisNumbers[i] <= motors.size()) motors[state.axisNumbers[i] - 1U] = state.motors[i];
+        for (const double motor : motors)
+            appendFixed(line, motor, 6);
+    }
+    line += '\n';
     file_.write(line);
 }
 

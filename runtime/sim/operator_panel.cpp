@@ -73,7 +73,7 @@ bool OperatorPanel::terminalUsable() const {
 }
 
 bool OperatorPanel::canAnswer() const {
-    return answeredByClients_ || !answers_.empty() || answersToCome_ > 0 || terminalUsable();
+    return connected_ && (answeredByClients_ || !answers_.empty() || answersToCome_ > 0 || terminalUsable());
 }
 
 /// Keeps a dialog in the list of those that wait, also while its task is being unwound.

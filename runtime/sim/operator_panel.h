@@ -75,6 +75,12 @@ class OperatorPanel {
     void setAnsweredByClients() { answeredByClients_ = true; }
     /// Whether the terminal may be asked (default: stdin is a terminal).
     void setTerminal(bool usable) { terminal_ = usable ? 1 : 0; }
+    /// False: no FlexPendant is connected, so nothing can be shown or asked (ERR_TP_NO_CLIENT).
+    void setConnected(bool connected) { connected_ = connected; }
+    bool isConnected() const { return connected_; }
+    /// False: the display has no room for a further view (ERR_UISHOW_FULL).
+    void setRoomForViews(bool room) { roomForViews_ = room; }
+    bool hasRoomForViews() const { return roomForViews_; }
     void flush();
     /// Lets others see what was written when that is a tenth of a second (wall clock) old: to be called often.
     void keepVisible();
@@ -140,7 +146,7 @@ class OperatorPanel {
     int terminal_ = -1;
     std::deque<std::string> display_;
     std::function<void(std::string_view)> listener_;
-    bool answeredByClients_ = false;
+    bool answeredByClients_ = false, connected_ = true, roomForViews_ = true;
     std::deque<std::string> answers_;
     std::deque<Asking*> asking_;
     uint64_t lastNumber_ = 0;

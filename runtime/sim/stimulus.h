@@ -24,6 +24,10 @@ enum class StimulusKind : uint8_t {
     PpToMain,
     StepForward,
     StepBackward,
+    PendantLost,  ///< no FlexPendant is connected: nothing can be shown or asked
+    PendantFound, ///< ... one is again
+    ViewsFull,    ///< the display has no room for a further view (UIShow)
+    ViewsFree,
     DeviceLost,   ///< I/O device `text` loses contact
     DeviceFound,  ///< ... and has it again
     NetworkError, ///< I/O network `text` is in error, and so are its devices

@@ -18,6 +18,7 @@ class TraceMerger final : public TraceSink {
     void addUnit(std::string_view unit) { units_.push_back({std::string(unit), {}}); }
 
     void sample(Time time, std::string_view unit, const motion::MotionState& state) override;
+    bool wantsMotors() const override { return out_.wantsMotors(); }
     void ordered(const MoveOrder& order) override { out_.ordered(order); }
     /// Passes on what is left: no more samples will come.
     void finish();

@@ -25,6 +25,8 @@ class TraceSink {
     static constexpr Time kPeriod = 4 * kMillisecond;
     virtual ~TraceSink() = default;
     virtual void sample(Time time, std::string_view unit, const motion::MotionState& state) = 0;
+    /// The samples shall have the positions of the motors.
+    virtual bool wantsMotors() const { return false; }
     /// Comes before the samples of that movement.
     virtual void ordered(const MoveOrder& /*order*/) {}
 };

@@ -184,7 +184,7 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
     tally().ended += release.status == 0 ? 1u : 0u;
     if (optimise) {
         const RunResult parts = runner.run({.stepping = false, .optimise = true, .inParts = true});
-        if (parts.status != release.status || parts.output != release.output) {
+        if (!hasTime && (parts.status != release.status || parts.output != release.output)) {
             std::fprintf(stderr, "---- release, status %d:\n%s---- in parts, status %d:\n%s", release.status,
                          release.output.c_str(), parts.status, parts.output.c_str());
             require(false, "a program compiled in parts differs");

@@ -56,7 +56,7 @@ def case_filter(name):
 
 
 # Groups that `./dev test --quick` leaves out: each of their tests starts several processes, or needs seconds.
-NOT_QUICK = {"cli", "fuzz", "interpreted"}
+NOT_QUICK = {"cli", "errors", "fuzz", "interpreted"}
 # Folders whose programs run interpreted, too: what leaves a routine or enters it elsewhere than at its beginning.
 INTERPRETED = ("golden/errors", "golden/flow", "golden/interrupts", "golden/stop", "cli/state", "cli/step")
 # Unit tests with these tags need seconds.
@@ -101,7 +101,8 @@ def write_ctest(path, source, build):
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
     add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc",
                          os.path.join(build, "rapidc")], 60)
-    add("stdlib/error_tests", [sys.executable, os.path.join(scripts, "check_error_tests.py")], 60)
+    add("errors/every_constant", [sys.executable, os.path.join(scripts, "check_error_tests.py"), "--rapidc",
+                                  os.path.join(build, "rapidc")], 900)
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import time
 import unittest
 
 from client import RAPIDC, LspCase, ServerError
@@ -176,6 +177,24 @@ class Lifecycle(LspCase):
         client.notify("$/cancelRequest", {"id": number})
         client.send({"id": number, "method": "textDocument/references", "params": ask})
         self.assertEqual(len(client.response(number)["result"]), uses)
+        self.assertEqual(client.stop(), 0)
+
+    def test_an_edit_overtakes_requests_that_wait(self):
+        # Chapter "Error codes", ContentModified; issue 19: a request that is overtaken is cancelled, no request blocks typing.
+        routines, lines = 400, 25
+        text = "MODULE m\n  VAR num n;\n" + "".join(
+            f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
+        client, document = self.opened(text)
+        client.settle()
+        ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
+               "context": {"includeDeclaration": False}}
+        numbers = [client.start("textDocument/references", ask) for _ in range(80)]
+        self.assertIn("result", client.response(numbers[0]))
+        time.sleep(0.15)  # longer than a request may wait when an edit comes
+        client.change(document, 2, text.replace("num n;", "num n; VAR num m;"))
+        self.assertEqual(client.response(numbers[-1])["error"]["code"], -32801)
+        # Requests after the edit are answered.
+        self.assertEqual(len(client.request("textDocument/references", ask)), 2 * routines * lines)
         self.assertEqual(client.stop(), 0)
 
     def test_usage(self):

@@ -1,6 +1,7 @@
 // Steps against the simulated controller of web/pendant/test. Each names the rule of docs/pendant.md or issue 20 that it checks.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 
 const tab = (page, name) => page.click(`#tab-${name}`);
 const last = (server, method) => server.cell.requests.filter((request) => request.method === method).pop()?.params;
@@ -163,12 +164,19 @@ export const simulatedSteps = {
         await page.selectOption("select[aria-label='Compare with']", { label: "Run 2" });
         await page.locator(".time-line").focus();
         await page.keyboard.press("ArrowRight");
-        await page.waitForSelector("text=compared with run 2");
+        await page.waitForSelector("text=compared with Run 2");
         server.cell.setSignal("doVacuum", 1);
         await page.selectOption("select[aria-label='Run']", { label: "Run 2" });
         await page.click("button:has-text('Live')");
         await page.waitForSelector(".view-banner", { state: "hidden" });
         await eventually(async () => (await page.locator("select[aria-label='Signal'] option").count()) > 0, "the signal can be chosen");
+        const [saved] = await Promise.all([page.waitForEvent("download"), page.click("button[aria-label='Save the run as CSV']")]);
+        assert.equal(saved.suggestedFilename(), "Run_2.csv");
+        await page.setInputFiles("input[type=file]", await saved.path().then((path) => ({ name: "first cell.csv", mimeType: "text/csv", buffer: readFileSync(path) })));
+        await page.waitForSelector("text=first cell.csv loaded");
+        assert.equal(await page.locator("select[aria-label='Compare with'] option:checked").textContent(), "first cell");
+        await page.setInputFiles("input[type=file]", { name: "wrong.csv", mimeType: "text/csv", buffer: Buffer.from("time_s,j1\n0,x\n") });
+        await page.waitForSelector("text=Line 2: 'x' is not a number for j1");
     },
 
     async "files, backup"(page, server) {

@@ -75,12 +75,22 @@ def requests(server, seconds, rate=40):
         client.close()
 
     threads = [threading.Thread(target=run, args=(i,)) for i in range(10)]
+    counter = RwsClient(server.addresses["http"], 1)
+    cycles = lambda: [int(counter.get("/ctrl/virtualtime/vttimeslice").values()[name]) for name in ("cycles", "missed-cycles")]  # noqa: E731
+    cycles_before = cycles()
     before, memory, begin = seconds_of(server.process), memory_of(server.process), time.monotonic()
     for thread in threads:
         thread.start()
-    for thread in threads:
-        thread.join()
+    next_look = begin + 60
+    while any(thread.is_alive() for thread in threads):
+        threads[0].join(1)
+        if time.monotonic() > next_look:
+            next_look += 60
+            print(f"  after {time.monotonic() - begin:.0f} s: memory {memory_of(server.process)} KiB, load {os.getloadavg()[0]:.1f}", flush=True)
     needed = time.monotonic() - begin
+    ran, missed = (after - earlier for after, earlier in zip(cycles(), cycles_before))
+    counter.close()
+    print(f"cycles of 4 ms: {ran}, missed {missed} ({100 * missed / max(1, ran):.3f} %), load average {os.getloadavg()[0]:.1f}")
     print(f"requests: {len(times) / needed:.0f}/s, p50 {percentile(times, 0.5):.2f} ms, p99 {percentile(times, 0.99):.2f} ms, "
           f"longest {max(times) * 1000:.1f} ms; processor {(seconds_of(server.process) - before) / needed:.0%}, "
           f"memory {memory} -> {memory_of(server.process)} KiB; other than 200: {sorted(set(errors))[:5]}")

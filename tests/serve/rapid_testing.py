@@ -1,5 +1,6 @@
 """Shared by the tests of resources around RAPID: paths in both dialects, and the four forms of a resource."""
 
+import os
 import time
 
 from serve_testing import ServeCase
@@ -14,6 +15,12 @@ def properties(dialect, symbol):
     if dialect == 1:
         return f"/rw/rapid/symbol/properties/RAPID/{symbol}"
     return f"/rw/rapid/symbol/RAPID/{symbol}/properties"
+
+
+def program(name):
+    """Text of a module in the folder programs."""
+    with open(os.path.join(os.path.dirname(__file__), "programs", name), encoding="utf-8") as file:
+        return file.read()
 
 
 class RapidCase(ServeCase):

@@ -42,7 +42,11 @@ class Serve:
 
     def __init__(self, *inputs, options=(), wait=True):
         self.errors = tempfile.TemporaryFile()
-        self.process = subprocess.Popen([RAPIDC, "serve", *inputs, *options], stdout=subprocess.PIPE, stderr=self.errors)
+        if folder := os.environ.get("RAPIDC_ERRORS"):  # scripts/check_error_tests.py wants to see which errors are raised
+            options = (*options, f"--errors={folder}/{os.getpid()}-{id(self)}.csv")
+        environment = dict(os.environ, XDG_STATE_HOME=os.path.join(tempfile.gettempdir(), "rapidc-serve-test-state"))
+        self.process = subprocess.Popen([RAPIDC, "serve", *inputs, *options], stdout=subprocess.PIPE, stderr=self.errors,
+                                        env=environment)
         self.addresses = {}
         if wait:
             self.wait_ready()

@@ -51,7 +51,10 @@ class System(ServeCase):
         for client in self.both():
             for path in ("/ctrl", "/ctrl/identity"):
                 self.assertEqual(client.get(path).values()["ctrl-type"], "Virtual Controller")
+            self.assertRegex(client.get("/ctrl").entries()[1].values["datetime"], r"^\d{4}-\d\d-\d\d T \d\d:\d\d:\d\d$")
         client = self.client(2)
+        # A8 looks for ctrl-identity-info-li among the entries of /ctrl
+        self.assertEqual([entry.type for entry in client.get("/ctrl").entries()], ["ctrl-identity-info-li", "ctrl-clock-info-li"])
         self.assertIn("resources", client.get("/ctrl").json()["_embedded"])
         self.assertIn("state", client.get("/ctrl/identity").json())
 
@@ -120,7 +123,8 @@ class Versions(ServeCase):
 
 class Backup(ServeCase):
     MODULE = MODULE
-    FILES = {"EIO.cfg": 'EIO:CFG_1.0:7:0::\n#\nEIO_SIGNAL:\n\n      -Name "doKept" -SignalType "DO"\n',
+    FILES = {"EIO.cfg": 'EIO:CFG_1.0:7:0::\n#\nEIO_SIGNAL:\n\n      -Name "doKept" -SignalType "DO"\n\n'
+                        '      -Name "doBusy" -SignalType "DO"\n#\nSYSSIG_OUT:\n\n      -Status "BackupInProgress" -Signal "doBusy"\n',
              "tool.sysx": "MODULE tool(SYSMODULE)\n  PERS tooldata grip := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\nENDMODULE\n"}
 
     def make(self, client, name):
@@ -167,6 +171,14 @@ class Backup(ServeCase):
                           "/fileservice/$BACKUP/no/such/x", "/tmp/x"):
                 response = client.act("/ctrl/backup", "backup", {"backup": place}, action2="create")
                 self.assertEqual(response.status // 100, 4, place)
+
+    def test_system_output_of_a_backup(self):
+        """docs/system_signals.md: BackupInProgress is 1 while a backup is being written."""
+        client = self.client(1)
+        response = client.subscribe(("/rw/iosystem/signals/doBusy;state", 2))
+        socket = self.socket(client, response)
+        self.make(client, "busy")
+        self.assertEqual([socket.event().values["lvalue"] for _ in range(2)], ["1", "0"])
 
     def test_a_backup_runs(self):
         """Issue 20: a backup is taken by rapidc serve and rapidc run as one of a controller, with the same data."""

@@ -1,5 +1,7 @@
 """The event log (contract 18, 24, 26, 30, 41; facts 7)."""
 
+import urllib.parse
+
 from serve_testing import ServeCase, main
 
 MODULE = """MODULE MainModule
@@ -20,6 +22,18 @@ ENDMODULE
 class EventLog(ServeCase):
     MODULE = MODULE
     written = 0
+
+    def test_saving_all_messages(self):
+        """RWS documentation, saveraw: 202 with Location of a progress resource; A10: the path is one of the file service."""
+        for client in self.both():
+            self.write(client, 1)
+            name = f"log{client.dialect}.txt"
+            response = client.act("/rw/elog", "saveraw", {"path": f"/fileservice/$HOME/{name}"})
+            self.assertEqual(response.status, 202)
+            self.assertEqual(client.get(urllib.parse.urlsplit(response.header("location")).path).values()["state"], "ready")
+            self.assertIn(f"Message {type(self).written}".encode(), client.get(f"/fileservice/$HOME/{name}").body)
+            for wrong in ("", "name", "/fileservice/$NONE/x"):
+                self.assertEqual(client.act("/rw/elog", "saveraw", {"path": wrong}).status // 100, 4, wrong)
 
     def numbers(self, response):
         return [int(entry.title.rsplit("/", 1)[1]) for entry in response.entries("elog-message-li")]

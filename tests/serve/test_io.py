@@ -225,5 +225,35 @@ class Io(ServeCase):
                 self.assertEqual(first.get(path).entries(), second.get(path).entries(), path)
 
 
+class Alias(ServeCase):
+    """RWS documentation, /rw/rapid/aliasio: signal variables that AliasIO has connected."""
+    MODULE = """MODULE MainModule
+  VAR signaldo lamp;
+  VAR signaldi idle;
+  PROC main()
+    AliasIO doLamp, lamp;
+    Stop;
+    AliasIOReset lamp;
+    Stop;
+  ENDPROC
+ENDMODULE
+"""
+    FILES = {"EIO.cfg": EIO}
+
+    def test_alias_signals(self):
+        def aliases(client):
+            return [(entry.values["alias-name"], entry.values["signal-name"], entry.values["type"])
+                    for entry in client.get("/rw/rapid/aliasio").entries("rap-alias-io")]
+        clients = self.both()
+        for client in clients:
+            self.eventually(lambda: aliases(client) == [("lamp", "doLamp", "DO")])  # pylint: disable=cell-var-from-loop
+        form = {"regain": "continue", "execmode": "continue", "cycle": "asis", "condition": "none",
+                "stopatbp": "enabled", "alltaskbytsp": "true"}
+        self.eventually(lambda: clients[0].get("/rw/rapid/execution").values()["ctrlexecstate"] == "stopped")
+        self.assertEqual(clients[0].act("/rw/rapid/execution", "start", form).status, 204)
+        for client in clients:
+            self.eventually(lambda: aliases(client) == [])  # pylint: disable=cell-var-from-loop
+
+
 if __name__ == "__main__":
     main()

@@ -318,12 +318,125 @@ class Motion(ServeCase):
         self.assertEqual(self.jog(client, [0, 0, 0, 0, -500, 0], jogmode="Joint").status, 204)
         self.eventually(lambda: axes(client)[4] < 119.5)
 
+    def repeat(self, client, fields, condition, seconds=20):
+        """Gives the order of jogging again and again, as a held button does, until the condition holds."""
+        def push():
+            self.assertEqual(client.act("/rw/motionsystem", "jog", {"axis1": 1000, "ccount": 1, **fields}).status, 204)
+            return condition()
+        self.eventually(push, seconds)
+
+    def test_jog_to_a_target(self):
+        """RWS documentation, jog mode GoToPos: all axes move to the target that was set; the button must be held."""
+        names = ["x", "y", "z", "q1", "q2", "q3", "q4"]
+        for dialect in (1, 2):
+            client = self.mover(dialect)
+            self.teleport(client, [20, 10, 10, 0, 40, 0])
+            there = client.get(UNIT + "/robtarget").values()
+            self.teleport(client, [0, 0, 0, 0, 30, 0])
+            self.manual(client)
+            self.assertEqual(self.jog(client, [1000, 0, 0, 0, 0, 0], jogmode="GoToPos").status // 100, 4 if dialect == 1 else 2)
+            target = {field: there[name] for field, name in zip(
+                ("pos-x", "pos-y", "pos-z", "orient-q1", "orient-q2", "orient-q3", "orient-q4"), names)}
+            target.update({f"config-j{axis}": there[f"cf{axis}"] for axis in (1, 4, 6)})
+            self.assertEqual(client.act("/rw/motionsystem", "positiontarget", target, action2="position-target").status, 204)
+            for wrong in ({"pos-x": "far"}, {"orient-q1": "2"}):
+                reply = client.act("/rw/motionsystem", "positiontarget", {**target, **wrong}, action2="position-target")
+                self.assertEqual(reply.status, 400, wrong)
+            self.jog(client, [1000, 0, 0, 0, 0, 0], jogmode="GoToPos")
+            begun = self.at_rest(client)  # not repeated: it stops on the way
+            self.assertLess(begun[0], 19)
+            self.repeat(client, {"jogmode": "GoToPos"}, lambda: abs(axes(client)[0] - 20) < 0.01)
+            for found, wanted in zip(self.at_rest(client), [20, 10, 10, 0, 40, 0]):
+                self.assertAlmostEqual(found, wanted, 2)
+            client.close()
+
+    def test_jog_aligns_the_tool(self):
+        """Jog mode Align: the tool turns about its TCP until its z axis is parallel to an axis of the coordinate system."""
+        client = self.mover(2)
+        self.teleport(client, [0, 0, 0, 0, 60, 0])  # z of the tool points 30 degrees away from straight down
+        self.manual(client)
+        where = lambda: numbers(client.get(UNIT + "/robtarget?coordinate=World").values(),  # noqa: E731
+                                ["x", "y", "z", "q1", "q2", "q3", "q4"])
+        begin = where()
+
+        def z_axis():
+            _, _, _, w, x, y, z = where()
+            return (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y))
+        self.repeat(client, {"jogmode": "Align"}, lambda: max(map(abs, z_axis())) > 0.999999)
+        for found, wanted in zip(where()[:3], begin[:3]):
+            self.assertAlmostEqual(found, wanted, 1)
+
     def test_wrong_orders(self):
         client = self.mover(2)
         self.manual(client)
         for fields in ({"axis1": "x"}, {"axis1": 100, "jogmode": "Odd"}, {"axis1": 100, "inc-mode": "Huge"}, {},
                        {"axis1": "inf"}, {"axis1": 100, "mechunit": "ROB_9"}, {"axis1": 100, "cjogspeed": 200}):
             self.assertEqual(client.post("/rw/motionsystem/jog", fields).status, 400, fields)
+
+
+class ExternalUnits(ServeCase):
+    """Activation by hand (RWS documentation, Set Mechunit: mode=Activated|Deactivated) under the rules of ActUnit and DeactUnit."""
+    MODULE = "MODULE m\n PROC main()\n  WaitTime 1;\n ENDPROC\nENDMODULE\n"
+    FILES = {"MOC.cfg": """MOC:CFG_1.0:6:0::
+#
+MECHANICAL_UNIT:
+
+      -name "STN1" -use_single_0 "STN1_A" -activate_at_start_up
+
+      -name "TRACK" -use_single_0 "TRACK_A" -activate_at_start_up -deactivation_forbidden
+
+#
+SINGLE:
+
+      -name "STN1_A" -use_joint "STN1_A"
+
+      -name "TRACK_A" -use_joint "TRACK_A"
+
+#
+JOINT:
+
+      -name "STN1_A" -logical_axis 7 -use_arm "STN1_A"
+
+      -name "TRACK_A" -logical_axis 8 -use_arm "TRACK_A"
+"""}
+    OPTIONS = ("--no-program-start",)
+
+    def test_activation(self):
+        for dialect in (1, 2):
+            client = self.client(dialect)
+            if dialect == 2:
+                self.assertEqual(client.post("/rw/mastership/motion/request").status, 204)
+
+            def order(unit, mode):
+                path = f"/rw/motionsystem/mechunits/{unit}" + ("?action=set" if dialect == 1 else "")
+                return client.post(path, {"mode": mode}).status
+
+            def state(unit):
+                return client.get(f"/rw/motionsystem/mechunits/{unit}?resource=dynamic").values()["mode"]
+            self.assertEqual(state("STN1"), "Activated")
+            self.assertEqual(order("STN1", "Deactivated"), 204)
+            self.assertEqual(state("STN1"), "Deactivated")
+            self.assertEqual(client.get(UNIT + "/jointtarget").values()["eax_a"], "9E+09")  # manual 1.8: not active
+            self.assertEqual(order("STN1", "Activated"), 204)
+            self.assertEqual(client.get(UNIT + "/jointtarget").values()["eax_a"], "0")
+            self.assertEqual(order("TRACK", "Deactivated"), 403)  # deactivation_forbidden
+            self.assertEqual(order("ROB_1", "Deactivated"), 403)
+            self.assertEqual(order("STN1", "Half"), 400)
+            client.close()
+
+    def test_positions_by_task(self):
+        """RWS documentation: tasks/T/motion?resource=mechunit, robtarget, jointtarget, extjointstate."""
+        for client in self.both():
+            path = "/rw/rapid/tasks/T_ROB1/motion"
+            self.assertEqual(client.get(path).status, 200)
+            units = client.get(path + "?resource=mechunit").entries("rapid-mechunit")
+            self.assertEqual([unit.values["name"] for unit in units], ["ROB_1", "STN1", "TRACK"])
+            joints = client.get(path + "?resource=jointtarget").values("rapid-jointtarget")
+            self.assertEqual([joints[f"j{axis}"] for axis in range(1, 7)], [joints[f"rax_{axis}"] for axis in range(1, 7)])
+            self.assertIn("x", client.get(path + "?resource=robtarget").values("rapid-robtarget"))
+            states = client.get(path + "?resource=extjointstate").values("rapid-extjointstate")
+            self.assertEqual([states[f"j{axis}"] for axis in (3, 4, 5, 6)], ["not_active"] * 4)
+            self.assertEqual(client.get(path + "?resource=odd").status, 400)
 
 
 class SevenAxes(ServeCase):

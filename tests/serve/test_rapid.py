@@ -3,7 +3,7 @@
 import os
 import urllib.parse
 
-from rapid_testing import RapidCase, data
+from rapid_testing import RapidCase, data, program
 from serve_testing import main
 
 MODULE = """
@@ -337,6 +337,68 @@ class Modules(RapidCase):
             self.assertEqual(client.get(program).values()["name"], "Shop")
 
 
+class LargeModule(RapidCase):
+    """controller.md 2.3: module-text, or file-path when the module is large; the client reads that file, then deletes it."""
+    MODULE = "MODULE M\n  PROC main()\n  ENDPROC\n" + "! a comment that makes the module large, a line of it\n" * 12000 + "ENDMODULE\n"
+
+    def test_text_by_file(self):
+        for client in self.both():
+            path = ("/rw/rapid/modules/M?task=T_ROB1&resource=module-text" if client.dialect == 1
+                    else f"{TASK}/modules/M/text")
+            values = client.get(path).values("rap-module-text")
+            self.assertNotIn("module-text", values)
+            file = "/fileservice/" + values["file-path"]
+            self.assertEqual(client.get(file).body.decode(), self.MODULE)
+            self.assertEqual(client.delete(file).status, 204)
+
+
+class Entries(RapidCase):
+    """RWS documentation: set the entry point of a task, unload its program."""
+    MODULE = """MODULE M
+  PERS num main_runs := 0;
+  PERS num other_runs := 0;
+  PROC main()
+    main_runs := main_runs + 1;
+  ENDPROC
+  PROC Other()
+    other_runs := other_runs + 1;
+  ENDPROC
+  FUNC num NoEntry()
+    RETURN 1;
+  ENDFUNC
+ENDMODULE
+"""
+
+    def test_entry_point(self):
+        for client in self.masters():
+            program = f"{TASK}/program"
+            for wrong in ("None", "NoEntry", ""):
+                reply = client.act(program, "setentrypoint", {"routine": wrong}, "entrypoint")
+                self.assertEqual(reply.status, 400, wrong)
+            self.assertEqual(client.act(program, "setentrypoint", {"routine": "Other"}, "entrypoint").status, 204)
+            self.eventually(lambda: client.get(program).values("rap-program")["entrypoint"].lower() == "other")
+            before = (float(self.value("T_ROB1/M/main_runs")), float(self.value("T_ROB1/M/other_runs")))
+            self.assertEqual(client.act("/rw/rapid/execution", "resetpp").status, 204)
+            self.assertEqual(self.start(client, cycle="once").status, 204)
+            self.eventually(lambda: float(self.value("T_ROB1/M/other_runs")) == before[1] + 1)
+            self.wait_stopped(client)
+            self.assertEqual(float(self.value("T_ROB1/M/main_runs")), before[0])
+            self.assertEqual(client.act(program, "setentrypoint", {"routine": "main"}, "entrypoint").status, 204)
+            self.eventually(lambda: client.get(program).values("rap-program")["entrypoint"] == "main")
+
+    def test_unloading_a_program(self):
+        for client in self.masters():
+            program = f"{TASK}/program"
+            self.assertEqual(client.act(program, "save", {"path": "$HOME/kept"}).status, 204)
+            self.assertEqual(client.act(program, "unloadprog", {}, "unload").status, 204)
+            self.eventually(lambda: client.get(program).status == 204)  # RWS documentation: no program
+            symbol = data(client.dialect, "T_ROB1/M/main_runs")
+            self.assertEqual(client.get(symbol).status, 400)
+            name = next(entry for entry in os.listdir(os.path.join(self.home, "kept")) if entry.endswith(".pgf"))
+            self.assertEqual(client.act(program, "loadprog", {"progpath": f"$HOME/kept/{name}"}, "load").status, 204)
+            self.eventually(lambda: client.get(symbol).status == 200)
+
+
 class Dialogs(RapidCase):
     MODULE = """MODULE M
   PERS num answer := 0;
@@ -433,6 +495,49 @@ ENDMODULE
             self.assertEqual(client.delete("/rw/dipc/PC").status, 204)
             self.assertEqual(client.delete("/rw/dipc/PC").status, 404)
             self.assertEqual(client.delete("/rw/dipc/RMQ_T_ROB1").status, 403)
+
+
+class InvalidMessages(RapidCase):
+    MODULE = None
+    FILES = {"invalid_messages.modx": program("invalid_messages.modx")}
+    OPTIONS = ()
+
+    def queue(self, client, name):
+        self.assertIn(client.post("/rw/dipc?action=create", {"dipc-queue-name": name, "dipc-max-size": "444",
+                                                             "dipc-max-number-of-messages": "10"}).status, (200, 201))
+
+    def send(self, client, source, value):
+        message = {"dipc-src-queue-name": source, "dipc-cmd": "111", "dipc-userdef": "1", "dipc-msgtype": "1",
+                   "dipc-data": f"num;{value}"}
+        self.assertIn(client.act("/rw/dipc/RMQ_T_ROB1", "send", message).status, (200, 204))
+
+    def counts(self):
+        return self.value("T_ROB1/InvalidMessages/good"), self.value("T_ROB1/InvalidMessages/invalid")
+
+    def test_messages_of_clients_that_do_not_exist(self):
+        """Manual 1.10, rmqmessage: a message from a client that does not exist raises ERR_RMQ_INVMSG where it is read."""
+        client = self.client(1)
+        self.queue(client, "PC")
+        self.send(client, "PC", 1)
+        self.eventually(lambda: self.counts() == ("1", "0"))
+        self.send(client, "never_there", 2)  # read by RMQReadWait
+        self.eventually(lambda: self.counts() == ("1", "1"))
+        self.send(client, "PC", 7)  # RMQGetMessage reads the next one
+        self.eventually(lambda: self.value("T_ROB1/InvalidMessages/waiting") == '"RMQGetMessage"')
+        self.send(client, "never_there", 3)
+        self.eventually(lambda: self.counts() == ("2", "2"))
+
+    def test_sender_that_has_gone(self):
+        """The same for a client whose queue was removed before its message was read."""
+        client = self.client(1)
+        self.queue(client, "gone")
+        good, invalid = (int(count) for count in self.counts())
+        self.assertEqual(client.act("/rw/rapid/execution", "stop", {"stopmode": "stop"}).status, 204)
+        self.wait_stopped(client)
+        self.send(client, "gone", 4)
+        self.assertEqual(client.delete("/rw/dipc/gone").status, 204)
+        self.assertEqual(self.start(client).status, 204)
+        self.eventually(lambda: self.counts() == (str(good), str(invalid + 1)))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ SPEED = "/rw/panel/speedratio"
 MODULE = """MODULE MainModule
   PERS num count := 0;
   VAR num hidden := 1;
+  PERS string long{16} := ["","","","","","","","","","","","","","","",""];
   PROC main()
     WHILE TRUE DO
       WaitTime 0.1;
@@ -51,6 +52,26 @@ class SubscriptionCase(ServeCase):
     @staticmethod
     def anchor(event):
         return event.links["self"]
+
+
+class LargeValues(SubscriptionCase):
+    def test_event_of_a_large_value(self):
+        """controller.md 2.4: an event is under 1 KiB; a longer value is read at the address in the event (docs/serve.md)."""
+        for client in self.both():
+            path = ("/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/long" if client.dialect == 1
+                    else "/rw/rapid/symbol/RAPID/T_ROB1/MainModule/long/data")
+            _, socket = self.open(client, (path + ";value", 1))
+            writer = self.client(1)
+            target = "/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/long?action=set"
+            for letter, fits in (("a", False), ("b", True)):
+                value = "[" + ",".join(f'"{letter * (80 if not fits else 5)}{client.dialect}"'[:82] for _ in range(16)) + "]"
+                value = value.replace(f'{letter * 80}"', f'{letter * 79}{client.dialect}"')
+                self.assertEqual(writer.post(target, {"value": value}).status, 204)
+                event = socket.event()  # fails when it has 1 KiB or more
+                self.assertEqual(self.anchor(event), path + ";value")
+                self.assertEqual("value" in event.values, fits)
+                self.assertEqual(client.get(path).values()["value"], value)
+            writer.close()
 
 
 class Creating(SubscriptionCase):

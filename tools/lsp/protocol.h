@@ -22,6 +22,7 @@ constexpr int kInvalidParams = -32602;
 constexpr int kInternal = -32603;
 constexpr int kNotInitialized = -32002;
 constexpr int kCancelled = -32800;
+constexpr int kContentModified = -32801;
 constexpr int kRequestFailed = -32803;
 } // namespace error
 

@@ -26,13 +26,21 @@ using Clock = std::chrono::steady_clock;
 /// A message that was read; no value: it is not JSON.
 using Message = std::optional<Json>;
 
+bool isMessage(const Message& message, const char* method) {
+    return message && message->is_object() && message->value("method", Json()) == method;
+}
+
 /// Messages on their way from the reader to the worker, and for each request that has no answer yet whether it was
-/// cancelled.
+/// cancelled. An edit overtakes requests that have waited for an answer longer than kPatience: the client will ask again, and
+/// diagnostics of the new text need not wait for them.
 class Inbox {
   public:
     void put(Message message) {
         const std::lock_guard lock(mutex_);
-        if (isRequest(message)) open_.try_emplace(message->at("id").dump());
+        if (isRequest(message))
+            open_.try_emplace(message->at("id").dump());
+        else if (isMessage(message, "textDocument/didChange"))
+            overtake();
         messages_.push_back(std::move(message));
         arrived_.notify_one();
     }
@@ -43,13 +51,14 @@ class Inbox {
     }
     void cancel(const Json& id) {
         const std::lock_guard lock(mutex_);
-        if (const auto request = open_.find(id.dump()); request != open_.end()) request->second.request();
+        if (const auto request = open_.find(id.dump()); request != open_.end())
+            request->second.cancel.request();
     }
     /// Good until done(); null when there is no such request.
     const rapid::query::Cancel* cancelOf(const Json& id) {
         const std::lock_guard lock(mutex_);
         const auto request = open_.find(id.dump());
-        return request == open_.end() ? nullptr : &request->second;
+        return request == open_.end() ? nullptr : &request->second.cancel;
     }
     /// The worker has answered it.
     void done(const Message& message) {
@@ -72,14 +81,27 @@ class Inbox {
     }
 
   private:
+    static constexpr std::chrono::milliseconds kPatience{100};
+
+    struct OpenRequest {
+        rapid::query::Cancel cancel;
+        Clock::time_point since = Clock::now();
+    };
+
     static bool isRequest(const Message& message) {
         return message && message->is_object() && message->contains("method") && message->contains("id");
+    }
+    void overtake() {
+        const Clock::time_point latest = Clock::now() - kPatience;
+        for (auto& [id, request] : open_)
+            if (request.since < latest && !request.cancel.requested())
+                request.cancel.request(rapid::query::CancelReason::Overtaken);
     }
 
     std::mutex mutex_;
     std::condition_variable arrived_;
     std::deque<Message> messages_;
-    std::map<std::string, rapid::query::Cancel> open_; ///< by id
+    std::map<std::string, OpenRequest> open_; ///< by id
     bool closed_ = false;
 };
 
@@ -130,7 +152,7 @@ class Reader {
     }
 
     void take(Message message) {
-        if (message && message->is_object() && message->value("method", Json()) == "$/cancelRequest")
+        if (isMessage(message, "$/cancelRequest"))
             if (const Json* id = at(*message, "params.id")) return inbox_.cancel(*id);
         inbox_.put(std::move(message));
     }

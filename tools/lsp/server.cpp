@@ -14,7 +14,16 @@ Server::Server(const rapid::workspace::Environment& environment, State::Send sen
 
 namespace {
 
-constexpr const char* kCancelledText = "the request was cancelled";
+using rapid::query::Cancel;
+using rapid::query::CancelReason;
+
+/// Ends a request whose answer is not wanted any more.
+void throwIfCancelled(const Cancel* cancel) {
+    if (!rapid::query::isCancelled(cancel)) return;
+    if (cancel->reason() == CancelReason::Overtaken)
+        throw RequestError{error::kContentModified, "the text has changed since the request; send it again"};
+    throw RequestError{error::kCancelled, "the request was cancelled"};
+}
 
 bool isId(const Json& id) {
     return id.is_string() || id.is_number_integer();
@@ -68,7 +77,6 @@ void Server::receive(const Json& message) {
 
 void Server::request(const Json& id, const std::string& method, const Json& params) {
     state_.cancel = cancelOf_ ? cancelOf_(id) : nullptr;
-    if (rapid::query::isCancelled(state_.cancel)) return refuse(id, error::kCancelled, kCancelledText);
     if (phase_ == Phase::New && method != "initialize")
         return refuse(id, error::kNotInitialized, "the first request has to be 'initialize'");
     if (phase_ == Phase::ShutDown)
@@ -76,6 +84,7 @@ void Server::request(const Json& id, const std::string& method, const Json& para
     if (phase_ == Phase::Initialized && method == "initialize")
         return refuse(id, error::kInvalidRequest, "'initialize' may be sent once only");
     try {
+        throwIfCancelled(state_.cancel);
         send_(response(id, answer(method, params)));
     } catch (const RequestError& problem) {
         refuse(id, problem.code, problem.message);
@@ -105,7 +114,7 @@ Json Server::answer(const std::string& method, const Json& params) {
         throw RequestError{error::kMethodNotFound, fmt::format("there is no request '{}'", method)};
     Json found = handler->second(state_, params);
     // A query that was cancelled has returned a part of its answer.
-    if (rapid::query::isCancelled(state_.cancel)) throw RequestError{error::kCancelled, kCancelledText};
+    throwIfCancelled(state_.cancel);
     return found;
 }
 
@@ -162,6 +171,7 @@ void Server::catchUp(bool whole, const std::function<bool()>& interrupted) {
             endProgress();
             const bool all = publisher_.publishQuickly(state_) || whole;
             if (all && (!interrupted || !interrupted())) publisher_.publish(state_);
+            if (!interrupted || !interrupted()) state_.prepareNames();
         }
     } catch (const std::exception& problem) {
         state_.dirty = false;

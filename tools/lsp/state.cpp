@@ -97,6 +97,17 @@ const rapid::query::Snapshot& State::snapshot(const rapid::workspace::Program& p
     return *kept.snapshot;
 }
 
+void State::prepareNames() {
+    for (const auto& [uri, document] : documents.all()) {
+        const rapid::workspace::Program* program = workspace.programOf(document.path);
+        if (!program) continue;
+        const rapid::query::Snapshot& names = snapshot(*program);
+        for (const auto& task : names.program().tasks)
+            names.hasUniqueGlobals(*task);
+        names.predefined();
+    }
+}
+
 Target State::targetOfPath(const std::string& path) {
     Target target;
     target.path = path;

@@ -70,6 +70,8 @@ class State {
     Target targetOfPath(const std::string& path);
     /// The program as queries see it, good until it changes.
     const rapid::query::Snapshot& snapshot(const rapid::workspace::Program& program);
+    /// Makes the tables of names that the first request about an open document would wait for.
+    void prepareNames();
     /// { uri, range } of a place in a file.
     Json location(const std::shared_ptr<const rapid::SourceFile>& file, rapid::SourceRange range);
     /// Of a declaration; those of the library as a readable file. Null when there is no such text.

@@ -58,6 +58,9 @@ class ZoneArea final : public Area {
     explicit ZoneArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
         observer.motion = [this] { Hub::guarded([this] { look(); }); };
+        observer.changed = [this](service::Change change, const rt::Task*) {
+            if (change == service::Change::ProgramPointer) Hub::guarded([this] { look(); });
+        };
         observer_ = controller_.observers().add(std::move(observer));
     }
     ~ZoneArea() override { controller_.observers().remove(observer_); }

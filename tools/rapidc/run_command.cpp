@@ -48,8 +48,8 @@ bool stimulusSteps(const rt::RunOptions& options) {
 
 void makeFolders(const RunSettings& settings) {
     for (const std::string* path : {&settings.options.outputs.trace, &settings.options.outputs.signals,
-                                    &settings.options.outputs.events, &settings.options.outputs.picture,
-                                    &settings.options.outputs.report}) {
+                                    &settings.options.outputs.events, &settings.options.outputs.errors,
+                                    &settings.options.outputs.picture, &settings.options.outputs.report}) {
         std::error_code ignored;
         const fs::path folder = fs::path(*path).parent_path();
         if (!folder.empty()) fs::create_directories(folder, ignored);

@@ -50,6 +50,11 @@ std::optional<Reply> Backups::folderIn(const Request& request, bool exists, std:
     return std::nullopt;
 }
 
+void Backups::enter(State state) {
+    state_ = state;
+    controller_.noteBackup(state == State::InProgress, state == State::Failed);
+}
+
 /// The content is taken now; a thread of its own writes it, so that programs and clients do not wait for the disk.
 Reply Backups::create(const Request& request) {
     if (state_ == State::InProgress) return Reply::refuse(ReturnCode::Rejected, "a backup is being written");
@@ -64,7 +69,7 @@ Reply Backups::create(const Request& request) {
 /// `progress`: where clients see it; "" for none.
 void Backups::write(const std::string& host, const std::string& progress) {
     if (writer_.joinable()) writer_.join(); // it has ended
-    state_ = State::InProgress;
+    enter(State::InProgress);
     auto content =
         std::make_shared<const service::BackupContent>(service::takeBackup(controller_, configuration_));
     writer_ = std::thread(
@@ -72,7 +77,7 @@ void Backups::write(const std::string& host, const std::string& progress) {
             const std::string problem = service::writeBackup(*content, host);
             controller.post([this, alive, problem, progress] {
                 if (alive.expired()) return;
-                state_ = problem.empty() ? State::Ready : State::Failed;
+                enter(problem.empty() ? State::Ready : State::Failed);
                 if (!progress.empty())
                     progress_.done(progress, problem.empty() ? ReturnCode::Success : ReturnCode::Rejected);
                 if (!problem.empty()) fmt::print(stderr, "backup: {}\n", problem);
@@ -110,7 +115,9 @@ std::string Backups::order(const std::string& folder) {
 Reply Backups::check(const Request& request) const {
     std::string host;
     if (auto reply = folderIn(request, true, host)) return std::move(*reply);
-    return Reply::of(Document());
+    Document document;
+    document.add("ctrl-checkrestore", "check-restore").value("status", "ACCEPTED").value("path", "");
+    return Reply::of(std::move(document));
 }
 
 Reply Backups::restore(const Request& request) {

@@ -26,6 +26,8 @@ class Backups {
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
+    enum class State : uint8_t { Init, InProgress, Ready, Failed };
+    void enter(State state);
     Reply state(const Request& request, const char* type) const;
     Reply create(const Request& request);
     std::string order(const std::string& folder);
@@ -35,7 +37,6 @@ class Backups {
     /// The folder on the host that the field `backup` names; a reply when there is none.
     std::optional<Reply> folderIn(const Request& request, bool exists, std::string& host) const;
 
-    enum class State : uint8_t { Init, InProgress, Ready, Failed };
     service::VirtualController& controller_;
     const service::ConfigurationStore& configuration_;
     const service::FileVolumes& volumes_;

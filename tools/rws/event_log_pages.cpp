@@ -1,6 +1,8 @@
 #include "tools/rws/event_log_pages.h"
 
 #include "config/text_util.h"
+#include "tools/rws/file_service.h"
+#include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 
 #include <fmt/format.h>
@@ -152,12 +154,31 @@ Reply EventLogPages::clearAll(const Request&) {
     return Reply::done();
 }
 
+/// All messages as text, one line each, into a file of a volume.
+Reply EventLogPages::saveRaw(const Request& request) const {
+    const std::string path = pathInVolume(fieldOf(request, "path"));
+    if (path.find('/') == std::string::npos) return badParameter("path", "/fileservice/$HOME/name.txt");
+    std::string text = "Number\tTime\tType\tCode\tTitle\tDescription\n";
+    for (const auto& message : journal_.messages(0))
+        text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", message->number,
+                            service::calendarText(message->calendarSeconds), static_cast<int>(message->type),
+                            message->code, message->title, message->description);
+    bool isNew = false;
+    if (const service::FileResult written = volumes_.write(path, text, isNew); !written.isDone())
+        return refuseFile(written);
+    Reply reply = Reply::done(202);
+    reply.location = progress_.begin("saveraw");
+    progress_.done(reply.location, ReturnCode::Success);
+    return reply;
+}
+
 void EventLogPages::addTo(Router& router, Subscribables& subscribables) {
     const std::string all = "/rw/elog", domain = all + "/{domain}";
     router.getBoth(all, [this](const Request& r) { return domains(r); });
     router.getBoth(domain, [this](const Request& r) { return list(r); });
     router.getBoth(domain + "/{number}", [this](const Request& r) { return one(r); });
     router.getBoth(all + "/seqnum/{number}", [this](const Request& r) { return one(r); });
+    addOrder(router, all, "saveraw", "saveraw", [this](const Request& r) { return saveRaw(r); });
     router.action(domain, "clear", [this](const Request& r) { return clear(r); });
     router.action(all, "clearall", [this](const Request& r) { return clearAll(r); });
     router.post(Dialect::V2, domain + "/clear", [this](const Request& r) { return clear(r); });

@@ -1,16 +1,19 @@
 #pragma once
 // EventLogPages: /rw/elog, the event log by domains.
 
+#include "tools/rws/progress.h"
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
 #include "tools/service/event_journal.h"
+#include "tools/service/file_volumes.h"
 
 namespace rapidc::rws {
 
 class EventLogPages {
   public:
-    /// The journal must outlive the routes and all subscriptions.
-    explicit EventLogPages(service::EventJournal& journal) : journal_(journal) {}
+    /// All of them must outlive the routes and all subscriptions.
+    EventLogPages(service::EventJournal& journal, const service::FileVolumes& volumes, Progress& progress)
+        : journal_(journal), volumes_(volumes), progress_(progress) {}
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
@@ -19,8 +22,11 @@ class EventLogPages {
     Reply one(const Request& request) const;
     Reply clear(const Request& request);
     Reply clearAll(const Request& request);
+    Reply saveRaw(const Request& request) const;
 
     service::EventJournal& journal_;
+    const service::FileVolumes& volumes_;
+    Progress& progress_;
 };
 
 } // namespace rapidc::rws

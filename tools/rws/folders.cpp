@@ -16,7 +16,7 @@ void addFolders(Router& router) {
         {"/", {"rw", "ctrl", "fileservice", "subscription", "users"}},
         {"/rw",
          {"cfg", "dipc", "elog", "iosystem", "mastership", "motionsystem", "panel", "rapid", "retcode",
-          "system"}},
+          "system", "vision"}},
     };
     for (const Folder& folder : folders)
         router.getBoth(folder.path, [folder](const Request&) {

@@ -129,8 +129,8 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
         methodOf(head.method) != Method::Get || head.asksForSocket() || hasAction || isLogout(visit.path);
     if (changes && !http::hasOwnOrigin(head))
         return refuse(403, "pages of other servers may not change anything here");
-    if (!methodOf(head.method))
-        return refuse(head.method == "OPTIONS" ? 405 : 501, "the method is not supported");
+    const bool asksForMethods = head.method == "OPTIONS";
+    if (!asksForMethods && !methodOf(head.method)) return refuse(501, "the method is not supported");
     if (auto response = logOn(dialect, head, visit)) return response;
     if (dialect == Dialect::V1) {
         const auto json = std::find_if(visit.query.begin(), visit.query.end(), [](const auto& field) {
@@ -139,8 +139,12 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
         visit.form = json != visit.query.end() && json->second == "1" ? Form::Json : Form::Xhtml;
         return std::nullopt;
     }
-    if (head.asksForSocket()) return std::nullopt;
+    if (head.asksForSocket() || asksForMethods) return std::nullopt;
     visit.form = acceptedForm(head.header("accept"), visit.path);
+    // The App SDK leaves it to the browser for requests that change something.
+    if (!visit.form && head.method != "GET" && head.method != "HEAD" &&
+        acceptsAnything(head.header("accept")))
+        visit.form = Form::Xhtml;
     if (!visit.form && !hasFreeForm(visit.path))
         return refuse(406, "Accept must name application/hal+json;v=2.0 or application/xhtml+xml;v=2.0");
     const bool hasContent = head.method == "POST" || head.method == "PUT";
@@ -198,6 +202,7 @@ void FrontDoor::handle(Dialect dialect, http::Request& from, const http::Respond
     if (!visit)
         return respond(errorResponse(400, "the request is not complete", Form::Xhtml, {dialect, "", "/"}));
     Request request;
+    if (from.method == "OPTIONS") return respond(withHeaders(methodsOf(dialect, *visit), visit->cookies));
     if (auto response = complete(dialect, from, *visit, request)) return respond(std::move(*response));
     const RenderContext context{dialect, request.base, request.path};
     const Form form = visit->form.value_or(Form::Xhtml);
@@ -219,6 +224,21 @@ void FrontDoor::handle(Dialect dialect, http::Request& from, const http::Respond
         return respond(withHeaders(responseTo(reply, form, context), visit->cookies));
     }
     execute(*match.route, std::move(request), visit, respond);
+}
+
+/// The answer to OPTIONS: what a path takes.
+http::Response FrontDoor::methodsOf(Dialect dialect, const Visit& visit) const {
+    std::string allowed;
+    for (const auto& [method, name] : {std::pair{Method::Get, "GET"}, std::pair{Method::Post, "POST"},
+                                       std::pair{Method::Put, "PUT"}, std::pair{Method::Delete, "DELETE"}})
+        if (router_.has(dialect, method, visit.segments)) allowed += std::string(name) + ",";
+    if (allowed.empty())
+        return errorResponse(404, "there is no resource " + visit.path, visit.form.value_or(Form::Xhtml),
+                             {dialect, "", visit.path});
+    http::Response response;
+    response.status = 204;
+    response.headers.emplace_back("Allow", allowed + "OPTIONS");
+    return response;
 }
 
 std::optional<http::Response> FrontDoor::complete(Dialect dialect, http::Request& from, const Visit& visit,

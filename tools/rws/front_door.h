@@ -72,6 +72,7 @@ class FrontDoor {
     std::optional<http::Response> admit(Dialect dialect, const http::Head& head, Visit& visit);
     std::optional<http::Response> logOn(Dialect dialect, const http::Head& head, Visit& visit);
     void handle(Dialect dialect, http::Request& request, const http::Respond& respond);
+    http::Response methodsOf(Dialect dialect, const Visit& visit) const;
     std::optional<http::Response> complete(Dialect dialect, http::Request& from, const Visit& visit,
                                            Request& request) const;
     void execute(const Route& route, Request request, const std::shared_ptr<Visit>& visit,

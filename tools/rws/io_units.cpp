@@ -47,6 +47,18 @@ Reply IoUnits::networks(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
+Reply IoUnits::searchNetworks(const Request& request) const {
+    const std::string wanted = fieldOf(request, "name"), state = fieldOf(request, "state");
+    Document document;
+    document.place = Document::Place::Resources;
+    for (const std::string& name : devices().networkNames()) {
+        const char* own = devices().isNetworkInError(name) ? "halted" : "running";
+        if (!containsName(name, wanted) || (!state.empty() && !sameName(state, own))) continue;
+        describeNetwork(name, document.add("ios-network-li", name));
+    }
+    return Reply::of(std::move(document));
+}
+
 Reply IoUnits::network(const Request& request) const {
     for (const std::string& name : devices().networkNames()) {
         if (!sameName(name, request.parameter("network"))) continue;
@@ -152,6 +164,34 @@ Reply IoUnits::search(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
+Reply IoUnits::networkConfiguration(const Request& request) const {
+    for (const std::string& name : devices().networkNames()) {
+        if (!sameName(name, request.parameter("network"))) continue;
+        Document document;
+        document.place = Document::Place::Resources;
+        document.add("ios-network-config-general", name)
+            .value("cfgname", "INDUSTRIAL_NETWORK")
+            .value("name", name)
+            .value("simulated", "TRUE");
+        return Reply::of(std::move(document));
+    }
+    return noNetwork(request.parameter("network"));
+}
+
+Reply IoUnits::deviceConfiguration(const Request& request) const {
+    const std::string name = find(request);
+    if (name.empty()) return noDevice(request.parameter("device"));
+    const std::string network = devices().networkOf(name);
+    Document document;
+    document.place = Document::Place::Resources;
+    document.add("ios-device-config-general", network + "/" + name)
+        .value("name", name)
+        .value("network", network)
+        .value("simulated", "TRUE")
+        .value("trustlevel", devices().mustStayActive(name) ? "required" : "default");
+    return Reply::of(std::move(document));
+}
+
 void IoUnits::addTo(Router& router, Subscribables&) {
     const std::string networks = "/rw/iosystem/networks", devices = "/rw/iosystem/devices";
     const std::string network = networks + "/{network}", device = devices + "/{device*}";
@@ -165,8 +205,14 @@ void IoUnits::addTo(Router& router, Subscribables&) {
     });
     router.getBoth(networks, [this](const Request& r) { return this->networks(r); });
     router.getBoth(network, [this](const Request& r) { return this->network(r); });
+    router.post(Dialect::V2, networks, [this](const Request& r) { return searchNetworks(r); });
+    router.post(Dialect::V2, devices, [this](const Request& r) { return search(r); });
+    router.action(networks, "search", [this](const Request& r) { return searchNetworks(r); });
     router.action(network, "set", [this](const Request& r) { return setNetwork(r); });
     router.post(Dialect::V2, network + "/set-lstate", [this](const Request& r) { return setNetwork(r); });
+    router.get(Dialect::V2, network + "/config",
+               [this](const Request& r) { return networkConfiguration(r); });
+    router.get(Dialect::V2, device + "/config", [this](const Request& r) { return deviceConfiguration(r); });
     router.getBoth(devices, [this](const Request& r) { return listDevices(r); });
     router.getBoth(device, [this](const Request& r) { return this->device(r); });
     router.action(device, "set", [this](const Request& r) { return setDevice(r); });

@@ -21,6 +21,9 @@ class IoUnits {
     Reply setNetwork(const Request& request);
     Reply listDevices(const Request& request) const;
     Reply device(const Request& request) const;
+    Reply searchNetworks(const Request& request) const;
+    Reply networkConfiguration(const Request& request) const;
+    Reply deviceConfiguration(const Request& request) const;
     Reply setDevice(const Request& request);
     Reply search(const Request& request) const;
     /// The name of the device that "dev" or "net/dev" means; "" when there is none.

@@ -74,9 +74,11 @@ Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
         isGiven = true;
     }
     if (const std::string mode = request.form.text("mode"); !mode.empty()) {
-        if (!sameName(mode, unit.isActive ? "Activated" : "Deactivated"))
-            return Reply::refuse(ReturnCode::Rejected,
-                                 "a program activates and deactivates units (ActUnit, DeactUnit)");
+        const bool active = sameName(mode, "Activated");
+        if (!active && !sameName(mode, "Deactivated"))
+            return badParameter("mode", "Activated or Deactivated");
+        if (const service::Refusal refusal = manual_.setActive(unit, active); !refusal.empty())
+            return Reply::refuse(ReturnCode::Rejected, refusal);
         isGiven = true;
     }
     if (!isGiven) return badParameter("tool", "tool, wobj, payload, total-payload, jog-mode or coord-system");
@@ -189,9 +191,9 @@ std::optional<Reply> MechanicalUnits::readJog(const Request& request, const Unit
         return badParameter("ccount", "a number");
     std::string mode = fieldOf(request, "jogmode"), known;
     if (mode.empty()) mode = manual_.choice(unit).jogMode;
-    if (!takeWord(kJogModes, mode, known) || known == "GoToPos" || known == "Align" ||
-        known == "ConfigurationJog")
-        return badParameter("jogmode", "AxisGroup1, AxisGroup2, Joint, Cartesian, Linear or Reorient");
+    if (!takeWord(kJogModes, mode, known) || known == "ConfigurationJog")
+        return badParameter("jogmode",
+                            "AxisGroup1, AxisGroup2, Joint, Cartesian, Linear, Reorient, Align or GoToPos");
     const std::string speedText = fieldOf(request, "cjogspeed"), increment = fieldOf(request, "inc-mode");
     const auto speed = numberIn(speedText);
     if (!speedText.empty() && (!speed || *speed < 0 || *speed > 100))
@@ -218,7 +220,54 @@ std::optional<Reply> MechanicalUnits::readJog(const Request& request, const Unit
 Reply MechanicalUnits::jog(const Request& request, const Unit& unit) {
     rt::JogOrder order;
     if (auto reply = readJog(request, unit, order)) return std::move(*reply);
-    return replyTo(manual_.jog(unit, order));
+    std::string mode = fieldOf(request, "jogmode");
+    if (mode.empty()) mode = manual_.choice(unit).jogMode;
+    const bool aligns = sameName(mode, "Align"), goes = sameName(mode, "GoToPos");
+    if (!aligns && !goes) return replyTo(manual_.jog(unit, order));
+    if (!unit.isRobot) return badParameter("jogmode", "Joint: the unit has no TCP");
+    if (!order.moves()) { // zeros stop
+        manual_.stopJogging();
+        return Reply::done();
+    }
+    if (aligns) return replyTo(manual_.align(unit));
+    if (!jogTarget_) return Reply::refuse(ReturnCode::Rejected, "set the target first (positiontarget)");
+    return replyTo(manual_.goTo(unit, *jogTarget_));
+}
+
+/// Where jogging with GoToPos goes, in the work object of the unit; mm.
+Reply MechanicalUnits::setJogTarget(const Request& request) {
+    motion::RobTarget target;
+    std::array<double, 11> figures{};
+    constexpr std::array<const char*, 11> kNames = {"pos-x",     "pos-y",     "pos-z",     "orient-q1",
+                                                    "orient-q2", "orient-q3", "orient-q4", "config-j1",
+                                                    "config-j4", "config-j6", "config-jx"};
+    constexpr std::size_t kRequired = 10;
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+        const auto figure = numberIn(fieldOf(request, kNames[i]));
+        if (!figure && (i < kRequired || request.form.has(kNames[i])))
+            return badParameter(kNames[i], "a number");
+        figures[i] = figure.value_or(0);
+    }
+    const motion::Quat turn{figures[3], figures[4], figures[5], figures[6]};
+    if (std::fabs(std::hypot(std::hypot(turn.w, turn.x), std::hypot(turn.y, turn.z)) - 1) > 0.01)
+        return badParameter("orient-q1", "a quaternion of length 1");
+    target.pose = {{figures[0], figures[1], figures[2]}, robot::normalized(turn)};
+    target.conf = {static_cast<int>(figures[7]), static_cast<int>(figures[8]), static_cast<int>(figures[9]),
+                   static_cast<int>(figures[10])};
+    for (std::size_t i = 0; i < target.extax.size(); ++i)
+        if (const auto axis = numberIn(fieldOf(request, fmt::format("extjoint-{}", i + 1))))
+            target.extax[i] = *axis;
+    jogTarget_ = target;
+    return Reply::done();
+}
+
+/// What changes nothing here: ON is refused.
+Handler MechanicalUnits::onlyOff(const char* why) {
+    return access_.guarded(Domain::Motion, [why](const Request& request) {
+        const auto on = readBool(fieldOf(request, "mode"));
+        if (!on) return badParameter("mode", "ON or OFF");
+        return *on ? Reply::refuse(ReturnCode::NotSupported, why, 403) : Reply::done();
+    });
 }
 
 void MechanicalUnits::addChanges(Router& router) {
@@ -236,8 +285,27 @@ void MechanicalUnits::addChanges(Router& router) {
     change(unit + "/pathsupervision", "set", "mode", &MechanicalUnits::setPathSupervision);
     router.post(Dialect::V2, unit + "/pathsupervision/level", changing(&MechanicalUnits::setPathSupervision));
     addOrder(router, all, "jog", "jog", changing(&MechanicalUnits::jog));
-    router.action(all + "/motionsupervision", "set", changing(&MechanicalUnits::setMotionSupervision));
-    router.action(all + "/pathsupervision", "set", changing(&MechanicalUnits::setPathSupervision));
+    for (const char* action : {"set", "set-mode", "set-level"}) {
+        router.action(all + "/motionsupervision", action, changing(&MechanicalUnits::setMotionSupervision));
+        router.action(all + "/pathsupervision", action, changing(&MechanicalUnits::setPathSupervision));
+    }
+    const Handler simulation = onlyOff("non-motion execution is not supported on a virtual controller");
+    const Handler prediction = onlyOff("Option is missing: Collision Avoidance");
+    for (const char* action : {"set", "set-mode"})
+        router.action(all + "/nonmotionexecution", action, simulation);
+    router.post(Dialect::V2, all + "/nonmotionexecution", simulation);
+    router.action(all + "/motionsupervision", "set-colpred-mode", prediction);
+    router.post(Dialect::V2, all + "/collisionprediction", prediction);
+    addOrder(router, all, "positiontarget", "position-target",
+             access_.guarded(Domain::Motion, [this](const Request& r) { return setJogTarget(r); }));
+    const Handler base = access_.guarded(Domain::Motion, [](const Request&) {
+        return Reply::refuse(
+            ReturnCode::Rejected,
+            "the base frame is a system parameter: change base_frame_pos_x .. of /rw/cfg/MOC/ROBOT "
+            "and restart");
+    });
+    router.action(unit + "/baseframe", "set", base);
+    router.post(Dialect::V2, unit + "/baseframe", base);
     router.action(all, "set-mechunit", [this](const Request& r) { return setJogUnit(r); });
     router.add(Dialect::V2,
                {Method::Post, all + "/set-mechunit", {}, [this](const Request& r) { return setJogUnit(r); }});

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -97,6 +98,22 @@ Reply MechanicalUnits::motionSystem(const Request& request) const {
     entry.links.emplace_back("errorstate", "/rw/motionsystem/errorstate");
     return Reply::of(std::move(document));
 }
+
+namespace {
+
+/// The names that positions of a task have in RWS 1.0, besides those of mechanical units.
+void nameForTask(Document& document) {
+    for (Entry& entry : document.entries) {
+        entry.type = entry.type == "ms-jointtarget" ? "rapid-jointtarget" : "rapid-robtarget";
+        auto values = entry.values;
+        for (const auto& [name, value] : values) {
+            if (name.starts_with("rax_")) entry.value("j" + name.substr(4), value);
+            if (name.starts_with("eax_")) entry.value(fmt::format("ej{}", name[4] - 'a' + 1), value);
+        }
+    }
+}
+
+} // namespace
 
 Reply MechanicalUnits::changeCount(const Request& request) const {
     std::string text = request.parameter("count");
@@ -293,6 +310,53 @@ Reply MechanicalUnits::leadThrough(const Request&, const Unit& unit) const {
     return Reply::of(std::move(document));
 }
 
+// ---- By task ---------------------------------------------------------------------------------------------------------
+
+/// Whether the axes of the external unit turn or move along a line.
+Reply MechanicalUnits::externalJoints(const Unit& unit) const {
+    const motion::MotionSystem& system = manual_.motionOf(unit).system();
+    const motion::ExternalAxes here = system.currentJoints().extax;
+    Document document;
+    Entry& entry = document.add("rapid-extjointstate", "extjointstate");
+    for (std::size_t i = 0; i < here.size(); ++i)
+        entry.value(fmt::format("j{}", i + 1), !motion::isConnected(here[i])        ? "not_active"
+                                               : !system.externalAxes()[i].rotating ? "linear"
+                                                                                    : "rotating");
+    return Reply::of(std::move(document));
+}
+
+/// /rw/rapid/tasks/T/motion: the units that a task moves.
+Reply MechanicalUnits::taskMotion(const Request& request) const {
+    const rt::Task* task = taskOf(controller_, request);
+    if (task == nullptr) return noTask(request);
+    const std::string resource = request.query.text("resource");
+    if (resource.empty())
+        return folder({{"rapid-robtarget-li", "motion?resource=robtarget"},
+                       {"rapid-jointtarget-li", "motion?resource=jointtarget"},
+                       {"rapid-extjointstate-li", "motion?resource=extjointstate"},
+                       {"rapid-mechunit-li", "motion?resource=mechunit"}});
+    Document document;
+    const Unit* robot = nullptr;
+    for (const auto& unit : controller_.core().units().all()) {
+        if (manual_.taskOf(*unit) != task) continue;
+        if (robot == nullptr || (unit->isRobot && !robot->isRobot)) robot = unit.get();
+        document.add("rapid-mechunit", unit->name)
+            .value("name", unit->name)
+            .value("mode", unit->isActive ? "Activated" : "Deactivated")
+            .value("type", typeOf(*unit));
+    }
+    if (robot == nullptr)
+        return Reply::refuse(ReturnCode::BadParameter, fmt::format("task {} moves nothing", task->name()));
+    if (sameName(resource, "mechunit")) return Reply::of(std::move(document));
+    if (sameName(resource, "extjointstate")) return externalJoints(*robot);
+    Reply reply = sameName(resource, "robtarget") ? robTarget(request, *robot)
+                  : sameName(resource, "jointtarget")
+                      ? jointTarget(request, *robot)
+                      : badParameter("resource", "robtarget, jointtarget, extjointstate or mechunit");
+    if (reply.document) nameForTask(*reply.document);
+    return reply;
+}
+
 // ---- Routes --------------------------------------------------------------------------------------------------------
 
 void MechanicalUnits::addMotionSystem(Router& router) {
@@ -311,12 +375,32 @@ void MechanicalUnits::addMotionSystem(Router& router) {
         document.add("ms-nonmotionexecution", "nonmotionexecution").value("mode", "OFF");
         return Reply::of(std::move(document));
     });
+    router.getBoth("/rw/rapid/tasks/{task}/motion", [this](const Request& r) { return taskMotion(r); });
     router.get(Dialect::V1, all + "/motionsupervision", forUnit(&MechanicalUnits::motionSupervision));
     router.get(Dialect::V1, all + "/pathsupervision", forUnit(&MechanicalUnits::pathSupervision));
     router.get(Dialect::V2, all + "/collisionprediction", [](const Request&) {
         Document document;
         document.add("ms-collision-prediction-mode", "collisionprediction")
             .value("collision-prediction-mode-enabled", "false");
+        return Reply::of(std::move(document));
+    });
+    router.get(Dialect::V2, all + "/collisionprediction/modelname", [this](const Request& request) {
+        const auto number = countIn(request.query.text("robotnumber"));
+        const auto& units = controller_.core().units().all();
+        const auto robots = static_cast<std::size_t>(
+            std::count_if(units.begin(), units.end(), [](const auto& unit) { return unit->isRobot; }));
+        if (!number || *number >= robots) return badParameter("robotnumber", "the number of a robot, from 0");
+        Document document; // there is no model
+        document.add("ms-collision-prediction-model-name", "modelname").value("modelname", "");
+        return Reply::of(std::move(document));
+    });
+    router.get(Dialect::V2, std::string(kUnits) + "/{unit}/coll-pred-model", [this](const Request& request) {
+        const Unit* unit = unitOf(request);
+        if (unit == nullptr) return noUnit(request);
+        Document document;
+        document.add("ms-mechunit-collision-prediction-model", unit->name)
+            .value("model-file", "")
+            .value("init-state", "not initialized");
         return Reply::of(std::move(document));
     });
 }

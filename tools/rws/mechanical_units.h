@@ -45,6 +45,8 @@ class MechanicalUnits {
     Reply motionSupervision(const Request& request, const Unit& unit) const;
     Reply pathSupervision(const Request& request, const Unit& unit) const;
     Reply leadThrough(const Request& request, const Unit& unit) const;
+    Reply taskMotion(const Request& request) const;
+    Reply externalJoints(const Unit& unit) const;
     void describeStatic(const Unit& unit, Entry& entry) const;
     void describeDynamic(const Unit& unit, Entry& entry) const;
     /// The pose that the query's tool, wobj and coordinate ask for.
@@ -61,11 +63,14 @@ class MechanicalUnits {
     void direct(const Unit& unit, const std::string& mode, const std::array<double, 7>& axes,
                 rt::JogOrder& order) const;
     Reply setJogUnit(const Request& request);
+    Reply setJogTarget(const Request& request);
+    Handler onlyOff(const char* why);
 
     service::VirtualController& controller_;
     service::ManualMotion& manual_;
     const Access& access_;
     std::string jogUnit_; ///< "" = the first robot
+    std::optional<motion::RobTarget> jogTarget_;
 };
 
 } // namespace rapidc::rws

@@ -1,5 +1,6 @@
 #include "tools/rws/modules.h"
 
+#include "config/atomic_file.h"
 #include "config/letter_case.h"
 #include "runtime/host/module_saver.h"
 #include "tools/rws/mod_pos.h"
@@ -15,6 +16,7 @@ namespace {
 
 using rapid::config::sameName;
 
+constexpr std::size_t kLargestText = std::size_t{512} << 10; // bytes of a text that a reply holds
 constexpr const char* kOldList = "/rw/rapid/modules";
 constexpr const char* kOld = "/rw/rapid/modules/{module}";
 constexpr const char* kNewList = "/rw/rapid/tasks/{task}/modules";
@@ -102,6 +104,7 @@ void Modules::addTo(Router& router) {
     for (const char* action : {"modify-position", "set-modify-position", "modpos"})
         router.action(kOld, action, modify);
     router.post(Dialect::V2, std::string(kNew) + "/modify-position", modify);
+    router.action(kOld, "set-syncpers", with(&Modules::keepValues));
     router.action(kOld, "save", with(&Modules::save));
     router.post(Dialect::V2, std::string(kNew) + "/save", with(&Modules::save));
 }
@@ -145,6 +148,7 @@ Reply Modules::showOld(const Request& request, const Asked& asked) {
     if (sameName(resource, "search") || sameName(resource, "text-search")) return search(request, asked);
     if (!resource.empty())
         return badParameter("resource", "module-text, change-count, module-extension or search");
+    if (request.query.has("text")) return search(request, asked);
     return request.query.has("startrow") ? range(request, asked) : show(request, asked);
 }
 
@@ -159,12 +163,29 @@ Reply Modules::show(const Request&, const Asked& asked) {
     return Reply::of(std::move(document));
 }
 
-Reply Modules::text(const Request&, const Asked& asked) {
+/// A large text comes by a file in $TEMP, which the client reads and deletes.
+Reply Modules::text(const Request& request, const Asked& asked) {
     Document document;
-    document.add("rap-module-text", asked.module->name)
-        .value("change-count", std::to_string(controller_.structuralChanges(*asked.task)))
-        .value("module-text", asked.text);
+    Entry& entry = document.add("rap-module-text", asked.module->name);
+    entry.value("change-count", std::to_string(controller_.structuralChanges(*asked.task)))
+        .value("module-length", std::to_string(asked.text.size()));
+    if (asked.text.size() <= kLargestText) {
+        entry.value("module-text", asked.text);
+        return Reply::of(std::move(document));
+    }
+    const std::string path = fmt::format("$TEMP/{}_text_{}.modx", asked.module->name,
+                                         request.session ? request.session->number : 0);
+    const std::optional<VolumePath> file = volumePath(controller_, path);
+    const std::string problem =
+        file ? rapid::config::replaceFile(file->host, asked.text) : "there is no volume $TEMP";
+    if (!problem.empty()) return Reply::refuse(ReturnCode::Rejected, problem);
+    entry.value("file-path", request.dialect == Dialect::V1 ? path : path.substr(1));
     return Reply::of(std::move(document));
+}
+
+/// The values of persistents are written when a module is saved, so there is nothing to do.
+Reply Modules::keepValues(const Request&, const Asked&) {
+    return Reply::done();
 }
 
 Reply Modules::range(const Request& request, const Asked& asked) {

@@ -33,6 +33,7 @@ class Modules {
     Reply showOld(const Request& request, const Asked& asked);
     Reply show(const Request& request, const Asked& asked);
     Reply text(const Request& request, const Asked& asked);
+    Reply keepValues(const Request& request, const Asked& asked);
     Reply range(const Request& request, const Asked& asked);
     Reply search(const Request& request, const Asked& asked);
     Reply changeCount(const Request& request, const Asked& asked);

@@ -29,6 +29,10 @@ std::string parameterOf(std::string_view type, std::string_view name) {
 
 } // namespace
 
+bool acceptsAnything(std::string_view accept) {
+    return http::trimBlanks(accept) == "*/*";
+}
+
 std::optional<Form> acceptedForm(std::string_view accept, std::string_view path) {
     while (!accept.empty()) {
         const std::size_t comma = std::min(accept.find(','), accept.size());
@@ -37,9 +41,9 @@ std::optional<Form> acceptedForm(std::string_view accept, std::string_view path)
         const std::string type = http::mediaTypeOf(one), version = parameterOf(one, "v");
         if (parameterOf(one, "q") == "0") continue;
         if (type == "application/hal+json" && version == "2.0") return Form::Json;
-        if (type == "application/xhtml+xml" &&
-            (version == "2.0" || (version == "2.1" && isBelow(path, "/rw/elog"))))
-            return Form::Xhtml;
+        const bool isLogOf21 = version == "2.1" && isBelow(path, "/rw/elog"); // as XHTML in both forms
+        if (type == "application/hal+json" && isLogOf21) return Form::Xhtml;
+        if (type == "application/xhtml+xml" && (version == "2.0" || isLogOf21)) return Form::Xhtml;
     }
     return std::nullopt;
 }

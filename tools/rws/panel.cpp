@@ -101,6 +101,12 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     router.action("/rw/panel/speedratio", "setspeedratio", speed);
     router.post(Dialect::V2, "/rw/panel/speedratio", speed);
     router.action("/rw/panel", "restart", [this](const Request& request) { return restart(request); });
+    router.get(Dialect::V2, "/rw/panel/enreq", [this](const Request&) {
+        Document document;
+        document.add("pnl-enreq", "enreq")
+            .value("state", controller_.panel().motors == MotorState::On ? "on" : "off");
+        return Reply::of(std::move(document));
+    });
     addMode(router);
     addStops(router);
     subscribe(subscribables);
@@ -110,7 +116,7 @@ void Panel::addMode(Router& router) {
     const Handler mode = [this](const Request& request) { return setMode(request); };
     router.postBoth("/rw/panel/opmode", mode);
     router.action("/rw/panel/opmode", "setopmode", mode);
-    router.post(Dialect::V2, "/rw/panel/opmode/acknowledge", mode);
+    addOrder(router, "/rw/panel/opmode", "acknowledge", "acknowledge", mode);
     addOrder(router, "/rw/panel/opmode", "lock", "lock",
              [this](const Request& request) { return lock(request); });
     addOrder(router, "/rw/panel/opmode", "unlock", "unlock", [this](const Request&) {

@@ -9,6 +9,7 @@
 #include "tools/rws/io_units.h"
 #include "tools/rws/kinematics.h"
 #include "tools/rws/mechanical_units.h"
+#include "tools/rws/platform.h"
 #include "tools/rws/progress.h"
 #include "tools/rws/signals.h"
 #include "tools/rws/system.h"
@@ -29,6 +30,9 @@ class PlantServices {
 
     void addTo(Router& router, Subscribables& subscribables);
 
+    /// Of HTTPS, PEM; before the first request.
+    void setCertificate(std::string pem) { platform_.setCertificate(std::move(pem)); }
+
     // Shared with the web page.
     service::ManualMotion& manualMotion() { return manual_; }
     service::EventJournal& journal() { return journal_; }
@@ -48,6 +52,7 @@ class PlantServices {
     Configuration configurationPages_;
     EventLogPages eventLog_;
     System system_;
+    Platform platform_;
     FileService files_;
     Backups backups_;
 };

@@ -175,9 +175,10 @@ Reply Programs::save(const Request& request) {
 Reply Programs::unload(const Request& request) {
     rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    return Reply::refuse(
-        ReturnCode::Rejected,
-        "Every task needs its main: load another program in place of this one, or unload single modules");
+    if (programModules(*task).empty()) return Reply::done();
+    const service::Refusal refusal = controller_.unloadProgram(*task);
+    if (refusal.empty()) names_.erase(task->name());
+    return replyTo(refusal);
 }
 
 Reply Programs::setName(const Request& request) {
@@ -193,13 +194,12 @@ Reply Programs::setName(const Request& request) {
 }
 
 Reply Programs::setEntry(const Request& request) {
-    const rt::Task* task = taskOf(controller_, request);
+    rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string routine = request.form.text("routine");
     if (routine.empty()) return badParameter("routine", "the name of a procedure");
     if (sameName(routine, entryOf(*task))) return Reply::done();
-    return Reply::refuse(ReturnCode::Rejected,
-                         "The entry point is a parameter of the task (SYS, CAB_TASKS, Entry)");
+    return replyTo(controller_.setEntry(*task, routine), ReturnCode::Rejected, 400);
 }
 
 // ---- Breakpoints -----------------------------------------------------------------------------------------------------

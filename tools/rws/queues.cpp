@@ -232,7 +232,9 @@ Reply Queues::sendToTask(const Request& request, rt::lib::MessageQueue& queue) {
     if (!text.empty() && !rt::parseRapidNumber(text, userDefined))
         return badParameter("dipc-userdef", "a number");
     rt::lib::MessageQueues& all = rapidQueues();
-    const rt::Handle sender = all.findByName(request.form.text("dipc-src-queue-name"));
+    const std::string from = request.form.text("dipc-src-queue-name");
+    rt::Handle sender = from.empty() ? 0 : all.findByName(from);
+    if (sender == 0 && !from.empty()) sender = rt::lib::kNoSuchClient;
     using Sent = rt::lib::MessageQueues::Sent;
     switch (
         all.send(queue, rt::lib::makeMessage(bytes.data(), *type, sender, static_cast<float>(userDefined)))) {

@@ -1,11 +1,13 @@
 #include "tools/rws/rapid_services.h"
 
+#include "tools/rws/alias_signals.h"
+#include "tools/rws/instruction_catalogue.h"
 #include "tools/rws/rapid_support.h"
 
 namespace rapidc::rws {
 
 RapidServices::RapidServices(service::VirtualController& controller)
-    : mastership_(controller.observers()), stations_(controller, mastership_),
+    : controller_(controller), mastership_(controller.observers()), stations_(controller, mastership_),
       access_(controller, mastership_, users_, stations_), mastershipResources_(controller, mastership_),
       panel_(controller, access_), programs_(controller, access_), execution_(controller, access_, programs_),
       tasks_(controller, access_), pointers_(controller, access_), modules_(controller, access_),
@@ -24,6 +26,8 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     symbols_.addTo(router, subscribables);
     dialogs_.addTo(router, subscribables);
     queues_.addTo(router, subscribables);
+    addAliasSignals(router, controller_);
+    addInstructionCatalogue(router, controller_);
     router.getBoth("/rw/rapid", [](const Request& request) {
         if (request.dialect == Dialect::V2)
             return folder({{"rap-execution-li", "rapid/execution"},
@@ -46,8 +50,6 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
         return folder(
             {{"rap-symboldata-li", "symbol/data"}, {"rap-symbolproperties-li", "symbol/properties"}});
     });
-    // alias signals belong to the instruction that made them; no client sees them
-    router.getBoth("/rw/rapid/aliasio", [](const Request&) { return Reply::of(Document{}); });
 }
 
 void RapidServices::sessionEnded(uint64_t session) {

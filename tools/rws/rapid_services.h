@@ -35,6 +35,7 @@ class RapidServices {
     void connectionClosed(uint64_t connection);
 
   private:
+    service::VirtualController& controller_;
     Mastership mastership_;
     Users users_;
     ControlStations stations_;

@@ -25,6 +25,8 @@ std::size_t sequenceLength(std::string_view text) {
     return overlong || surrogate || beyond || noCharacter ? 0 : length;
 }
 
+constexpr std::size_t kLargestEvent = 1024; // bytes
+
 bool isControl(char c) {
     const auto code = static_cast<unsigned char>(c);
     return (code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7F;
@@ -135,7 +137,14 @@ std::string renderEvent(const Entry& entry, std::string_view href, std::string_v
     Entry event = entry;
     event.self.clear();
     event.links.emplace_back("self", href); // after the others: some clients read the first anchor
-    return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
+    const auto render = [&] {
+        return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
+    };
+    std::string text = render();
+    if (text.size() < kLargestEvent) return text;
+    // The buffers of some clients end there: the value is left out, and read at the address in the event.
+    std::erase_if(event.values, [](const auto& value) { return value.first == "value"; });
+    return render();
 }
 
 } // namespace rapidc::rws

@@ -19,6 +19,10 @@ std::optional<ReturnCodeText> describe(int number) {
     return std::nullopt;
 }
 
+std::span<const ReturnCodeText> returnCodes() {
+    return kTexts;
+}
+
 ReturnCodeText describe(ReturnCode code) {
     return describe(static_cast<int>(code)).value_or(kTexts[0]); // every enumerator has a row
 }

@@ -2,6 +2,7 @@
 // ReturnCode: the numbers with which a controller refuses a request, with name, text and HTTP status: return_codes.def.
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace rapidc::rws {
@@ -23,5 +24,7 @@ struct ReturnCodeText {
 /// The row of a number; none when it is unknown.
 std::optional<ReturnCodeText> describe(int number);
 ReturnCodeText describe(ReturnCode code);
+/// All rows.
+std::span<const ReturnCodeText> returnCodes();
 
 } // namespace rapidc::rws

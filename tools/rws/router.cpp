@@ -58,6 +58,13 @@ void Router::postBoth(std::string pattern, const Handler& handler) {
     addBoth({Method::Post, std::move(pattern), {}, handler});
 }
 
+bool Router::has(Dialect dialect, Method method, const std::vector<std::string>& segments) const {
+    const auto& routes = routes_[static_cast<std::size_t>(dialect)];
+    return std::any_of(routes.begin(), routes.end(), [&](const Compiled& each) {
+        return each.route.method == method && each.pattern.matches(segments);
+    });
+}
+
 Router::Match Router::find(Request& request) const {
     Match match;
     const Compiled* found = nullptr;

@@ -49,6 +49,8 @@ class Router {
     };
     /// The most specific route: fixed segments win over parameters, those over {path*}. Fills request.parameters.
     Match find(Request& request) const;
+    /// Whether a route of that method has the path.
+    bool has(Dialect dialect, Method method, const std::vector<std::string>& segments) const;
 
   private:
     struct Compiled {

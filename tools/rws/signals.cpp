@@ -211,6 +211,7 @@ Reply Signals::set(const Request& request) {
     rt::SignalId signal = -1;
     if (const auto failure = find(request, signal)) return fail(*failure);
     const std::string mode = fieldOf(request, "mode"), value = fieldOf(request, "lvalue");
+    if (value.empty() && mode.empty() && !fieldOf(request, "lstate").empty()) return setState(request);
     if (!mode.empty() && !sameName(mode, "value") && !sameName(mode, kSimulated))
         return Reply::refuse(ReturnCode::BadParameter, "mode is value or simulated");
     const bool simulates = sameName(mode, kSimulated);
@@ -281,7 +282,8 @@ void Signals::addTo(Router& router, Subscribables& subscribables) {
     router.action(each, "set-lstate", [this](const Request& r) { return setState(r); });
     router.post(Dialect::V2, each + "/set-value", [this](const Request& r) { return set(r); });
     router.post(Dialect::V2, each + "/set-lstate", [this](const Request& r) { return setState(r); });
-    router.action(all, "unblock-signals", [this](const Request& r) { return endAllSimulations(r); });
+    for (const char* name : {"unblock-signal", "unblock-signals"})
+        router.action(all, name, [this](const Request& r) { return endAllSimulations(r); });
     router.post(Dialect::V2, all + "/unblock-signal",
                 [this](const Request& r) { return endAllSimulations(r); });
     router.action(all, "signal-search", [this](const Request& r) { return search(r, 1); });

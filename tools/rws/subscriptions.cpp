@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kMostResources = 1000; ///< in a group
 constexpr std::size_t kMostGroups = 32;      ///< of a session
 constexpr std::size_t kMostMessages = 1000;  ///< of a topic within a period
+constexpr std::size_t kMostSpent = 500;      ///< groups whose socket has closed
 constexpr std::size_t kMostImmediate = 64;   ///< resources of priority 2 in a group
 
 Failure bad(std::string message) {
@@ -306,8 +307,16 @@ Reply Subscriptions::show(const Request& request) {
 
 Reply Subscriptions::remove(const Request& request) {
     const Group* group = groupOf(request);
-    if (!group) return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
-    removeGroup(group->id);
+    if (group) {
+        removeGroup(group->id);
+        return Reply::done(200);
+    }
+    const auto spent = std::find_if(spent_.begin(), spent_.end(), [&](const auto& each) {
+        return each.second == request.session->number && each.first == numberOf(request.parameter("group"));
+    });
+    if (spent == spent_.end())
+        return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
+    spent_.erase(spent);
     return Reply::done(200);
 }
 
@@ -351,10 +360,17 @@ void Subscriptions::sessionEnded(uint64_t session) {
         if (group->session == session) ended.push_back(id);
     for (const uint64_t id : ended)
         removeGroup(id);
+    std::erase_if(spent_, [session](const auto& each) { return each.second == session; });
 }
 
 void Subscriptions::dropLater(uint64_t group) {
-    post_([this, group] { removeGroup(group); });
+    post_([this, group] {
+        const auto found = groups_.find(group);
+        if (found == groups_.end()) return;
+        spent_.emplace_back(group, found->second->session);
+        if (spent_.size() > kMostSpent) spent_.pop_front();
+        removeGroup(group);
+    });
 }
 
 void Subscriptions::changed(const std::shared_ptr<Topic>& topic, Entry entry) {

@@ -9,11 +9,13 @@
 #include "tools/rws/subscribable.h"
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rapidc::rws {
@@ -88,7 +90,9 @@ class Subscriptions final : public SocketGate {
     std::function<void(uint64_t, int)> socketsChanged_ = [](uint64_t, int) {};
     std::chrono::steady_clock::time_point sent_[2]; ///< when merged events went last, by priority
     std::string bases_[2];
-    std::map<uint64_t, std::unique_ptr<Group>> groups_;                        ///< controller's thread
+    std::map<uint64_t, std::unique_ptr<Group>> groups_; ///< controller's thread
+    /// Groups of RWS 2.0 whose socket has closed: they get nothing any more, but clients delete them. Group and session.
+    std::deque<std::pair<uint64_t, uint64_t>> spent_;
     std::map<std::pair<Dialect, std::string>, std::shared_ptr<Topic>> topics_; ///< controller's thread
     uint64_t lastGroup_ = 0, lastTopic_ = 0;
 

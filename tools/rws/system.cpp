@@ -103,7 +103,24 @@ Reply System::products(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
+namespace {
+
+void describeCode(const ReturnCodeText& text, Entry& entry) {
+    entry.value("name", text.symbol).value("code", fmt::format("{}", static_cast<int>(text.code)));
+    entry.value("severity", text.severity).value("description", text.text);
+}
+
+Reply allReturnCodes() {
+    Document document;
+    for (const ReturnCodeText& text : returnCodes())
+        describeCode(text, document.add("err-desc", fmt::format("{}", static_cast<int>(text.code))));
+    return Reply::of(std::move(document));
+}
+
+} // namespace
+
 Reply System::returnCode(const Request& request) const {
+    if (!request.query.has("code")) return allReturnCodes();
     const auto number = numberIn(request.query.text("code"));
     if (!number || std::fabs(*number) > 4e9 || *number != std::floor(*number))
         return badParameter("code", "the number of a return code");
@@ -114,9 +131,7 @@ Reply System::returnCode(const Request& request) const {
         return Reply::refuse(ReturnCode::NotFound,
                              fmt::format("there is no return code {}", request.query.text("code")));
     Document document;
-    Entry& entry = document.add("err-desc", fmt::format("{}", value));
-    entry.value("name", found->symbol).value("code", fmt::format("{}", value));
-    entry.value("severity", found->severity).value("description", found->text);
+    describeCode(*found, document.add("err-desc", fmt::format("{}", value)));
     return Reply::of(std::move(document));
 }
 
@@ -135,16 +150,23 @@ void System::addSystem(Router& router) {
 
 // ---- /ctrl ---------------------------------------------------------------------------------------------------------
 
-Reply System::identity(const Request&, Document::Place place) const {
+Reply System::identity(const Request& request, Document::Place place) const {
     const service::SystemFacts& facts = this->facts();
     Document document;
     document.place = place;
-    Entry& entry = document.add("ctrl-identity-info", "identity");
+    const bool isList = place == Document::Place::Resources; // RWS 2.0: entries of /ctrl
+    const std::string ending = isList && request.dialect == Dialect::V2 ? "-li" : "";
+    Entry& entry = document.add("ctrl-identity-info" + ending, "identity");
     entry.self = "/ctrl/identity";
     entry.value("ctrl-name", facts.name)
         .value("ctrl-id", facts.name)
         .value("ctrl-type", "Virtual Controller");
     entry.value("ctrl-mac", "00-00-00-00-00-00").value("ctrl-level", "Virtual");
+    if (isList) {
+        Entry& clock = document.add("ctrl-clock-info" + ending, "clock");
+        clock.self = "/ctrl/clock";
+        clock.value("datetime", service::calendarText(controller_.core().calendarSeconds()));
+    }
     return Reply::of(std::move(document));
 }
 
@@ -200,14 +222,14 @@ Reply System::restart(const Request& request) {
     return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
 }
 
-/// `_value`: a path after /fileservice/.
+/// `_value` (RWS 2.0: `value`): a path after /fileservice/.
 Reply System::environment(const Request& request) const {
     const std::string name = request.parameter("name");
     if (!name.starts_with('$') || !volumes_.has(name))
         return Reply::refuse(ReturnCode::NotFound,
                              fmt::format("there is no resource or environment variable {}", name));
     const std::string title = "$" + rapid::config::upperCase(name.substr(1));
-    return one("ctrl-env", title.c_str(), "_value", title);
+    return one("ctrl-env", title.c_str(), request.dialect == Dialect::V1 ? "_value" : "value", title);
 }
 
 void System::addControl(Router& router) {
@@ -219,7 +241,13 @@ void System::addControl(Router& router) {
     router.getBoth("/ctrl/clock/timezone",
                    [](const Request&) { return one("ctrl-timezone", "timezone", "timezone", "UTC"); });
     router.getBoth("/ctrl/{name}", [this](const Request& r) { return environment(r); });
-    router.getBoth("/ctrl/options", [](const Request&) { return Reply::of(Document()); });
+    router.getBoth("/ctrl/options", [](const Request&) { return Reply::done(); });
+    router.getBoth("/ctrl/options/{option}", [this](const Request& request) {
+        const std::string wanted = request.parameter("option");
+        for (const std::string& option : facts().options)
+            if (sameName(option, wanted)) return one("ctrl-option", option.c_str(), "option", option);
+        return Reply::refuse(ReturnCode::NotFound, "the system does not have the option " + wanted);
+    });
     router.post(Dialect::V2, "/ctrl/restart", [this](const Request& r) { return restart(r); });
     router.action("/ctrl", "restart", [this](const Request& r) { return restart(r); });
     router.get(Dialect::V2, "/ctrl/restart/restartcount", [this](const Request&) {
@@ -230,15 +258,18 @@ void System::addControl(Router& router) {
 // ---- Virtual time --------------------------------------------------------------------------------------------------
 
 Reply System::setTimeState(const Request& request) {
-    const std::string state = request.form.text("vtcurrstate");
-    const bool runs = sameName(state, "running");
-    if (!runs && !sameName(state, "stopped")) return badParameter("vtcurrstate", "running or stopped");
+    const bool isOld = request.form.has("vtstate"); // as RWS 1.0 documents it
+    const std::string state = request.form.text(isOld ? "vtstate" : "vtcurrstate");
+    const bool runs = sameName(state, isOld ? "VTFREERUN" : "running");
+    if (!runs && !sameName(state, isOld ? "VTSTOP" : "stopped"))
+        return badParameter(isOld ? "vtstate" : "vtcurrstate",
+                            isOld ? "VTFREERUN or VTSTOP" : "running or stopped");
     controller_.setTimeRunning(runs);
     return Reply::done();
 }
 
 Reply System::setTimeSpeed(const Request& request) {
-    const auto speed = numberIn(fieldOf(request, "vtcurrspeed"));
+    const auto speed = numberIn(fieldOf(request, request.form.has("vtspeed") ? "vtspeed" : "vtcurrspeed"));
     if (!speed || *speed < 0 || *speed > kMostSpeed)
         return badParameter("vtcurrspeed", "per cent of the wall clock's pace; 0: as fast as possible");
     controller_.setPace(static_cast<int>(std::lround(*speed)));
@@ -264,8 +295,17 @@ void System::addVirtualTime(Router& router) {
     router.getBoth(base + "/vtspeed", [this](const Request&) {
         return one("ctrl-vtspeed", "vtspeed", "vtcurrspeed", fmt::format("{}", controller_.pace()));
     });
-    router.getBoth(base + "/vttimeslice",
-                   [](const Request&) { return one("ctrl-vttimeslice", "vttimeslice", "vttimeslice", "4"); });
+    router.getBoth(base + "/vttimeslice", [this](const Request&) {
+        const service::CycleCount& cycles = controller_.cycles(); // besides what controllers say
+        Document document;
+        document.add("ctrl-vttimeslice", "vttimeslice")
+            .value("vttimeslice", "4")
+            .value("cycles", fmt::format("{}", cycles.cycles))
+            .value("missed-cycles", fmt::format("{}", cycles.missed))
+            .value("latest-cycle",
+                   fmt::format("{:.3f}", static_cast<double>(cycles.latest) / rt::kMillisecond));
+        return Reply::of(std::move(document));
+    });
     const auto state = [this](bool running) {
         return [this, running](const Request&) {
             controller_.setTimeRunning(running);
@@ -274,16 +314,17 @@ void System::addVirtualTime(Router& router) {
     };
     router.action(base + "/vtstate", "run", state(true));
     router.action(base + "/vtstate", "pause", state(false));
-    router.post(Dialect::V2, base + "/vtstate", [this](const Request& r) { return setTimeState(r); });
+    router.action(base + "/vtrun", "", state(true));
+    router.postBoth(base + "/vtstate", [this](const Request& r) { return setTimeState(r); });
     router.action(base + "/vtspeed", "set", [this](const Request& r) { return setTimeSpeed(r); });
-    router.post(Dialect::V2, base + "/vtspeed", [this](const Request& r) { return setTimeSpeed(r); });
+    router.postBoth(base + "/vtspeed", [this](const Request& r) { return setTimeSpeed(r); });
     const Handler slice = [](const Request& request) { // the cycle of motion is what it is
         const auto value = numberIn(fieldOf(request, "vttimeslice"));
         if (!value || *value <= 0) return badParameter("vttimeslice", "milliseconds");
         return *value == 4 ? Reply::done() : Reply::refuse(ReturnCode::Rejected, "the time slice is 4 ms");
     };
     router.action(base + "/vttimeslice", "set", slice);
-    router.post(Dialect::V2, base + "/vttimeslice", slice);
+    router.postBoth(base + "/vttimeslice", slice);
 }
 
 void System::addTo(Router& router, Subscribables&) {

@@ -68,12 +68,18 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
     addOrder(router, kTask, "link", "link", access_.guarded(Domain::Rapid, [](const Request&) {
         return Reply::done(); // programs are always linked
     }));
+    router.action(kTask, "build",
+                  access_.guarded(Domain::Rapid, [](const Request&) { return Reply::done(); }));
+    for (const char* action : {"start-spy", "stop-spy"})
+        router.action(kTasks, action, [](const Request&) {
+            return Reply::refuse(ReturnCode::NotSupported,
+                                 "RAPID spy is not supported on a virtual controller", 403);
+        });
     router.getBoth(std::string(kTask) + "/serviceroutine",
                    [this](const Request& request) { return routines(request); });
     router.getBoth(std::string(kTask) + "/activation-record",
                    [this](const Request& request) { return activationRecord(request); });
-    router.get(Dialect::V2, "/rw/rapid/taskselection",
-               [this](const Request& request) { return selection(request); });
+    router.getBoth("/rw/rapid/taskselection", [this](const Request& request) { return selection(request); });
     router.post(Dialect::V2, "/rw/rapid/taskselection",
                 access_.guarded(Domain::Rapid, [this](const Request& request) { return select(request); }));
     addCounters(router);

@@ -3,6 +3,8 @@
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -112,7 +114,16 @@ void Users::addGrants(Router& router) {
     router.post(Dialect::V2, "/uas/user/password", [](const Request&) {
         return Reply::refuse(ReturnCode::Rejected, "Passwords are options of rapidc serve", 403);
     });
-    router.get(Dialect::V2, "/uas/ldap", [](const Request&) { return Reply::of(Document()); });
+    router.get(Dialect::V2, "/uas/ldap", [](const Request&) {
+        Document document;
+        for (const char* part :
+             {"enabled", "searchpassword", "configuration", "settings", "certificate", "verify"})
+            document.add(fmt::format("uas-ldap-{}-li", part), part).self = fmt::format("/uas/ldap/{}", part);
+        return Reply::of(std::move(document));
+    });
+    router.get(Dialect::V2, "/uas/ldap/{name}", [](const Request&) {
+        return Reply::refuse(ReturnCode::NoGrant, "Option is missing: LDAP", 403);
+    });
     router.get(Dialect::V2, "/uas/users/{user}/roles", [](const Request& request) {
         if (!rapid::config::sameName(request.parameter("user"), request.session->user))
             return Reply::refuse(ReturnCode::NotFound, "There is no such user");
@@ -178,8 +189,10 @@ Reply Users::loginInfo(const Request& request) const {
 
 Reply Users::requestPrivilege(const Request& request) {
     const std::string level = request.form.text("privilege");
-    if (!rapid::config::sameName(level, "modify") && !rapid::config::sameName(level, "exclusive"))
-        return badParameter("privilege", "modify or exclusive");
+    constexpr const char* kLevels[] = {"modify", "exec", "exclusive"};
+    if (std::none_of(std::begin(kLevels), std::end(kLevels),
+                     [&](const char* each) { return rapid::config::sameName(each, level); }))
+        return badParameter("privilege", "modify or exec");
     privileged_.insert(request.session->number);
     names_[request.session->number] = request.session->user;
     return Reply::done(202);

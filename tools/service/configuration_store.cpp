@@ -2,8 +2,10 @@
 
 #include "config/atomic_file.h"
 #include "config/cfg_writer.h"
+#include "config/read_file.h"
 #include "config/text_util.h"
 #include "tools/service/cfg_types.h"
+#include "tools/service/system_facts.h"
 
 #include <fmt/format.h>
 
@@ -120,6 +122,21 @@ void ConfigurationStore::read() {
     }
 }
 
+bool ConfigurationStore::takeKept() {
+    for (const std::string& domain : domains()) {
+        const std::string path = fmt::format("{}/{}.cfg", folder_, domain);
+        std::string bytes;
+        std::vector<CfgProblem> problems;
+        if (!rapid::config::readFile(path, bytes).empty()) continue;
+        CfgFile file = rapid::config::parseCfg(bytes, path, problems);
+        if (domainNamed(file.domain) != domain) continue;
+        file.domain = domain;
+        files_[domain] = std::move(file);
+        changed_.insert(domain);
+    }
+    return !changed_.empty();
+}
+
 ConfigurationStore::~ConfigurationStore() {
     controller_.observers().remove(token_);
     controller_.onInputs({});
@@ -185,9 +202,19 @@ ConfigurationStore::Instance ConfigurationStore::shown(const std::string& domain
     return instance;
 }
 
+/// Those of the system, where its configuration does not list them.
+void ConfigurationStore::addOptions(std::vector<CfgInstance>& instances) const {
+    for (const std::string& option : systemFacts(controller_).options) {
+        CfgInstance& instance = instances.emplace_back();
+        instance.attributes.push_back({"name", {option}});
+        instance.attributes.push_back({"desc", {option}});
+    }
+}
+
 std::vector<ConfigurationStore::Instance> ConfigurationStore::instances(const std::string& domain,
                                                                         std::string_view type) const {
     std::vector<CfgInstance> implied = impliedInstances(controller_.core().units(), domain, type);
+    if (domain == "SYS" && sameName(type, "PRESENT_OPTIONS")) addOptions(implied);
     std::vector<Instance> all;
     std::size_t number = 0;
     std::set<std::string> named;

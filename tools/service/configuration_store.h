@@ -26,6 +26,10 @@ class ConfigurationStore {
     ConfigurationStore(const ConfigurationStore&) = delete;
     ConfigurationStore& operator=(const ConfigurationStore&) = delete;
 
+    /// Takes the domains whose files an earlier process has left in the folder; they hold after VirtualController::reopen(). False when
+    /// there are none.
+    bool takeKept();
+
     static const std::vector<std::string>& domains(); ///< "EIO", "SYS" ...
     /// "EIO" for any spelling of it; "" when there is no such domain.
     static std::string domainNamed(std::string_view name);
@@ -79,6 +83,7 @@ class ConfigurationStore {
                   const rapid::config::CfgInstance* instance) const;
     Refusal replace(const std::string& domain, rapid::config::CfgFile file);
     void choose(Inputs& inputs);
+    void addOptions(std::vector<rapid::config::CfgInstance>& instances) const;
     /// Everything as the present program has it.
     void read();
 

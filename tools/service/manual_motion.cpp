@@ -1,11 +1,13 @@
 #include "tools/service/manual_motion.h"
 
 #include "config/text_util.h"
+#include "runtime/host/unit_activation.h"
 #include "tools/service/data_path.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace rapidc::service {
 
@@ -153,15 +155,69 @@ rt::Jogging& ManualMotion::joggingOf(const rt::MechanicalUnit& unit) {
     return *jogging;
 }
 
-Refusal ManualMotion::jog(const rt::MechanicalUnit& unit, rt::JogOrder order) {
+Refusal ManualMotion::refusalOfJogging() const {
     if (controller_.panel().mode == OperatingMode::Auto)
         return "jogging is not possible in automatic mode: choose manual mode";
     if (controller_.panel().motors != MotorState::On) return "the motors are off: switch them on first";
     if (controller_.isRunning()) return "the program is executing: stop it first";
+    if (controller_.core().motions().empty()) return "there is nothing to move";
+    return {};
+}
+
+Refusal ManualMotion::jog(const rt::MechanicalUnit& unit, rt::JogOrder order) {
+    if (Refusal refusal = refusalOfJogging(); !refusal.empty()) return refusal;
     if (Refusal refusal = framesOf(unit, choice(unit).tool, choice(unit).workObject, order.frames);
         !refusal.empty())
         return refusal;
-    if (controller_.core().motions().empty()) return "there is nothing to move";
+    return joggingOf(unit).order(order);
+}
+
+Refusal ManualMotion::goTo(const rt::MechanicalUnit& unit, const motion::RobTarget& target) {
+    if (Refusal refusal = refusalOfJogging(); !refusal.empty()) return refusal;
+    motion::FrameSetup frames;
+    if (Refusal refusal = framesOf(unit, choice(unit).tool, choice(unit).workObject, frames);
+        !refusal.empty())
+        return refusal;
+    const motion::MotionSystem& system = motionOf(unit).system();
+    const auto goal = system.toJointTarget(target, frames);
+    if (!goal) return "the position is out of reach";
+    rt::JogOrder order = rt::jogOrderTo(system.currentJoints(), *goal);
+    order.frames = frames;
+    return joggingOf(unit).order(order);
+}
+
+Refusal ManualMotion::align(const rt::MechanicalUnit& unit) {
+    if (Refusal refusal = refusalOfJogging(); !refusal.empty()) return refusal;
+    rt::JogOrder order;
+    if (Refusal refusal = framesOf(unit, choice(unit).tool, choice(unit).workObject, order.frames);
+        !refusal.empty())
+        return refusal;
+    const motion::MotionSystem& system = motionOf(unit).system();
+    const motion::JointTarget here = system.currentJoints();
+    const motion::Pose flange = system.flangeInWorld(here);
+    const motion::Pose base = flange * inverse(system.kinematics().forward(here.robax));
+    const motion::Pose tool = order.frames.tool.robotHeld ? order.frames.tool.tframe : motion::Pose();
+    motion::Pose tcp = flange * tool;
+    const std::string& chosen = choice(unit).coordinateSystem;
+    motion::Quat axes; // of the chosen coordinate system in world
+    if (sameName(chosen, "Base")) axes = base.rot;
+    if (sameName(chosen, "Wobj") && !order.frames.workObject.robotHeld)
+        axes = (order.frames.workObject.uframe * order.frames.workObject.oframe).rot;
+    const motion::Vec3 z = rotate(conjugate(axes), rotate(tcp.rot, {0, 0, 1}));
+    motion::Vec3 nearest{z.x < 0 ? -1.0 : 1.0, 0, 0};
+    if (std::fabs(z.y) > std::fabs(z.x)) nearest = {0, z.y < 0 ? -1.0 : 1.0, 0};
+    if (std::fabs(z.z) > std::max(std::fabs(z.x), std::fabs(z.y))) nearest = {0, 0, z.z < 0 ? -1.0 : 1.0};
+    const motion::Vec3 axis = cross(z, nearest);
+    const double size = norm(axis);
+    constexpr double kAligned = 1e-6;
+    if (size < kAligned) return {};
+    order.increment = std::asin(std::min(1.0, size)) * 180 / std::numbers::pi; // at most 54.7 degrees
+    order.turn = rotate(axes, axis * (1 / size));
+    tcp.rot = normalized(robot::fromAxisAngle(order.turn, *order.increment) * tcp.rot);
+    const auto joints = system.kinematics().inverseNear(inverse(base) * tcp * inverse(tool), here.robax);
+    if (!joints) return "the position is out of reach";
+    order.goal = here;
+    order.goal->robax = *joints;
     return joggingOf(unit).order(order);
 }
 
@@ -179,6 +235,19 @@ bool ManualMotion::isJogging() const {
 std::string ManualMotion::jogLimit(const rt::MechanicalUnit& unit) const {
     const auto found = jogging_.find(unit.group);
     return found == jogging_.end() || !found->second ? std::string() : found->second->limit();
+}
+
+Refusal ManualMotion::setActive(const rt::MechanicalUnit& unit, bool active) {
+    rt::Controller& core = controller_.core();
+    if (unit.isActive == active) return {};
+    if (std::string refusal = rt::refusalOfActivation(core, unit, active); !refusal.empty()) return refusal;
+    if (unit.isConveyor) return "a program activates conveyors (ActUnit, DeactUnit)";
+    if (controller_.isRunning()) return "the program is executing: stop it first";
+    if (isJogging() || motionOf(unit).system().isMoving()) return "the robot moves";
+    rt::activateUnit(core, *core.units().find(unit.name), active);
+    ++changeCount_;
+    controller_.observers().motion();
+    return {};
 }
 
 Refusal ManualMotion::teleport(const rt::MechanicalUnit& unit, const motion::JointTarget& joints) {

@@ -46,14 +46,21 @@ class ManualMotion {
 
     /// In manual mode with motors on and a stopped program. `order.frames` is filled in from the choice of the unit.
     Refusal jog(const rt::MechanicalUnit& unit, rt::JogOrder order);
+    /// Towards a target in the work object of the unit; repeated like jog().
+    Refusal goTo(const rt::MechanicalUnit& unit, const motion::RobTarget& target);
+    /// Turns the tool about its TCP until its z axis is parallel to the nearest axis of the coordinate system; repeated like jog().
+    Refusal align(const rt::MechanicalUnit& unit);
     void stopJogging();
     bool isJogging() const;
     /// Why the latest movement of the unit ended early; "" = it did not.
     std::string jogLimit(const rt::MechanicalUnit& unit) const;
+    /// Activates or deactivates an external unit. The program is stopped and the group stands still.
+    Refusal setActive(const rt::MechanicalUnit& unit, bool active);
     /// Places a unit at these axes without motion, as only a virtual controller can. The program is stopped.
     Refusal teleport(const rt::MechanicalUnit& unit, const motion::JointTarget& joints);
 
   private:
+    Refusal refusalOfJogging() const;
     rt::Jogging& joggingOf(const rt::MechanicalUnit& unit);
 
     VirtualController& controller_;

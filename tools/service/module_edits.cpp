@@ -15,6 +15,8 @@ void ModuleEdits::remove(const std::string& task, const std::string& path) {
 }
 
 void ModuleEdits::applyTo(std::vector<rapid::sema::TaskInput>& tasks) const {
+    for (rapid::sema::TaskInput& task : tasks)
+        if (const auto entry = entries_.find(task.name); entry != entries_.end()) task.entry = entry->second;
     for (const auto& [key, bytes] : files_) {
         const std::string &name = key.first, &path = key.second;
         const auto task = std::find_if(tasks.begin(), tasks.end(),

@@ -17,12 +17,15 @@ class ModuleEdits {
     /// `path` as the program knows its file; another path is an additional file of the task.
     void set(const std::string& task, const std::string& path, std::string bytes);
     void remove(const std::string& task, const std::string& path);
-    void clear() { files_.clear(); }
+    /// The procedure with which the task begins.
+    void setEntry(const std::string& task, std::string routine) { entries_[task] = std::move(routine); }
+    void clearEntry(const std::string& task) { entries_.erase(task); }
     void applyTo(std::vector<rapid::sema::TaskInput>& tasks) const;
 
   private:
     std::map<std::pair<std::string, std::string>, std::optional<std::string>>
-        files_; ///< by task and path; none: taken out
+        files_;                                  ///< by task and path; none: taken out
+    std::map<std::string, std::string> entries_; ///< by task
 };
 
 } // namespace rapidc::service

@@ -44,10 +44,4 @@ void Observers::motion() {
     });
 }
 
-bool Observers::wantsMotion() const {
-    for (const auto& [token, observer] : observers_)
-        if (observer.motion) return true;
-    return false;
-}
-
 } // namespace rapidc::service

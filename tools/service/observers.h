@@ -53,7 +53,6 @@ class Observers {
     void event(const rt::Event& event);
     void signal(rt::SignalId id, double value);
     void motion();
-    bool wantsMotion() const;
 
   private:
     template <class Call> void each(const Call& call);

@@ -23,6 +23,7 @@ struct PanelState {
     OperatingMode mode = OperatingMode::Auto;
     int speedRatio = 100; ///< per cent
     bool runOnce = false; ///< cycle: once, else forever
+    bool backupInProgress = false, backupFailed = false;
 };
 
 } // namespace rapidc::service

@@ -76,6 +76,25 @@ rt::ExitStatus VirtualController::open() {
     return makeCore(first);
 }
 
+rt::ExitStatus VirtualController::reopen() {
+    if (release_) release_();
+    inputs_ = settings_.inputs;
+    if (chooseInputs_) chooseInputs_(inputs_);
+    std::string problems;
+    rt::ExitStatus status = rt::ExitStatus::Ended;
+    auto program = compile(edits_, problems, status);
+    if (!program) {
+        fmt::print(stderr, "{}", problems);
+        return status;
+    }
+    core_.reset();
+    program_ = std::move(program);
+    Succession first;
+    first.programStart = first.motorsOn = settings_.programStart;
+    if (status = makeCore(first); status == rt::ExitStatus::Ended) observers_.changed(Change::Generation);
+    return status;
+}
+
 /// Without --home: an empty folder, or a copy of the HOME of a backup, so that the backup stays as it is.
 std::string VirtualController::openHome() {
     if (!settings_.options.home.empty()) return {};
@@ -121,7 +140,10 @@ rt::ExitStatus VirtualController::makeCore(const Succession& how) {
 
 /// The panel of a new controller is as that of the one before.
 void VirtualController::applyPanel() {
-    core_->service<rt::PanelSwitches>().mode = panel_.mode;
+    rt::PanelSwitches& switches = core_->service<rt::PanelSwitches>();
+    switches.mode = panel_.mode;
+    switches.backupInProgress = panel_.backupInProgress;
+    switches.backupFailed = panel_.backupFailed;
     core_->setRunOnce(panel_.runOnce);
     for (const auto& motion : core_->motions()) {
         motion->system().setOverride(panel_.speedRatio);
@@ -136,12 +158,20 @@ void VirtualController::observe() {
                             [this](rt::SignalId id, double, double value) { observers_.signal(id, value); });
     core_->panel().onLine([this](std::string_view) { observers_.changed(Change::Display); });
     core_->onLook([this] { look(); });
-    core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
+    cycling_ = false;
 }
 
+bool VirtualController::isAnythingMoving() const {
+    return std::any_of(core_->motions().begin(), core_->motions().end(),
+                       [](const auto& motion) { return motion->isMoving(); });
+}
+
+/// The cycle of motion, from the beginning of a movement until everything is at rest.
 void VirtualController::everyFourMilliseconds() {
-    core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
-    if (observers_.wantsMotion()) observers_.motion();
+    cycles_.count(core_->scheduler().lateness(), kMotionPeriod);
+    cycling_ = isAnythingMoving();
+    if (cycling_) core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
+    observers_.motion();
 }
 
 void VirtualController::look() {
@@ -152,6 +182,10 @@ void VirtualController::look() {
         core_->setRunOnce(panel_.runOnce);
     }
     if (cursor_) carryOutCursor();
+    if (!cycling_ && isAnythingMoving()) {
+        cycling_ = true;
+        core_->scheduler().after(kMotionPeriod, [this] { everyFourMilliseconds(); });
+    }
     watch_.look();
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/host/module_loader.h"
 #include "runtime/sched/inbox.h"
 #include "tools/program/loaded_program.h"
+#include "tools/service/cycle_count.h"
 #include "tools/service/module_edits.h"
 #include "tools/service/observers.h"
 #include "tools/service/panel_state.h"
@@ -57,6 +58,8 @@ class VirtualController {
 
     /// Compiles and prepares; messages go to stderr. Ended when run() may follow.
     rt::ExitStatus open();
+    /// open() once more, with the inputs that onInputs() chooses, before run().
+    rt::ExitStatus reopen();
     /// Executes until shutDown() or a signal; the thread that calls it is the controller's thread.
     rt::ExitStatus run();
     /// From any thread: executes `command` on the controller's thread between the tasks. Dropped after the end of run().
@@ -91,6 +94,8 @@ class VirtualController {
     void pressEmergencyStop(bool pressed);
     /// The reset of an emergency stop, after the release of its button: motors off.
     Refusal confirmEmergencyStop();
+    /// What the system outputs BackupInProgress and BackupError show.
+    void noteBackup(bool inProgress, bool failed);
     /// A safeguard: open or closed.
     void openSafeguard(bool open);
 
@@ -116,6 +121,10 @@ class VirtualController {
     /// Files of modules, on the host, come into memory together, in place of modules of the same names and, with `replace`, of all program
     /// modules of the task. Its data begin with their initial values, its program pointer is at main.
     Refusal loadProgram(rt::Task& task, const std::vector<std::string>& files, bool replace);
+    /// All program modules of the task go; an empty main takes their place until another program is loaded.
+    Refusal unloadProgram(rt::Task& task);
+    /// The task begins with this procedure from now on; its program pointer is there.
+    Refusal setEntry(rt::Task& task, const std::string& routine);
     /// Replaces the text of a module in memory (not its file).
     Refusal setModuleText(rt::Task& task, const std::string& module, const std::string& text);
     /// The source text of a module in memory; false when there is none.
@@ -140,6 +149,8 @@ class VirtualController {
     int pace() const { return pace_; }
     void setTimeRunning(bool running);
     bool isTimeRunning() const { return timeRunning_; }
+    /// The 4 ms cycle of motion, kept in step with the wall clock: how often, and how often late.
+    const CycleCount& cycles() const { return cycles_; }
 
   private:
     /// Replacement of the present controller.
@@ -167,6 +178,7 @@ class VirtualController {
     void switchCycle(const char* change);
     std::string openHome();
     void carryOutCursor();
+    bool isAnythingMoving() const;
     void everyFourMilliseconds();
 
     Settings settings_;
@@ -195,6 +207,8 @@ class VirtualController {
     bool isConfigurationChanged_ = false;
     bool cycleStop_ = false;
     bool safeguardOpen_ = false, emergencyStop_ = false;
+    bool cycling_ = false; ///< the cycle of motion is pending
+    CycleCount cycles_;
     int pace_ = 100;
     bool timeRunning_ = true;
     bool ends_ = false;

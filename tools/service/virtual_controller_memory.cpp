@@ -21,6 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// What a task has when its program is unloaded: it needs a main. A system module, so that no client sees it as part of a program.
+constexpr const char* kEmptyProgram = "empty_program.sysx";
+constexpr const char* kEmptyText =
+    "MODULE EmptyProgram(SYSMODULE, NOVIEW)\n  PROC main()\n  ENDPROC\nENDMODULE\n";
+
 constexpr std::uintmax_t kLargestModule = std::uintmax_t{20} << 20; // bytes
 
 /// The file of the compiled program that holds the module, and how many modules it holds; null when there is none.
@@ -181,10 +186,31 @@ Refusal VirtualController::loadProgram(rt::Task& task, const std::vector<std::st
         });
         if (goes) edits.remove(task.name(), source->path());
     }
+    edits.remove(task.name(), kEmptyProgram);
+    if (replace) edits.clearEntry(task.name());
     for (auto& [file, bytes] : texts)
         edits.set(task.name(), file, std::move(bytes));
-    const std::string what = fmt::format("a program of {} modules has been loaded", files.size());
+    std::string what = fmt::format("a program of {} modules has been loaded", files.size());
+    if (files.empty()) {
+        what = "the program has been unloaded";
+        edits.setEntry(task.name(), "main");
+        edits.set(task.name(), kEmptyProgram, kEmptyText);
+    }
     if (Refusal refusal = replaceProgram(std::move(edits), task, what); !refusal.empty()) return refusal;
+    succession_->state.clear();
+    return {};
+}
+
+Refusal VirtualController::unloadProgram(rt::Task& task) {
+    return loadProgram(task, {}, true);
+}
+
+Refusal VirtualController::setEntry(rt::Task& task, const std::string& routine) {
+    ModuleEdits edits = edits_;
+    edits.setEntry(task.name(), routine);
+    if (Refusal refusal = replaceProgram(std::move(edits), task, "the program begins with " + routine);
+        !refusal.empty())
+        return refusal;
     succession_->state.clear();
     return {};
 }

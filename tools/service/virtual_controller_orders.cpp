@@ -76,6 +76,12 @@ Refusal VirtualController::setRunOnce(bool once) {
     return {};
 }
 
+void VirtualController::noteBackup(bool inProgress, bool failed) {
+    rt::PanelSwitches& switches = core_->service<rt::PanelSwitches>();
+    switches.backupInProgress = panel_.backupInProgress = inProgress;
+    switches.backupFailed = panel_.backupFailed = failed;
+}
+
 void VirtualController::pressEmergencyStop(bool pressed) {
     if (emergencyStop_ == pressed) return;
     emergencyStop_ = pressed;

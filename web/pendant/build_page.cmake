@@ -1,6 +1,7 @@
 # Bundles the page in a copy of its sources and writes it as a C++ source:
 #     cmake -DSOURCE=web/pendant -DWORK=FOLDER -DOUTPUT=built_page.cpp -DNODE=node -DNPM=npm -P build_page.cmake
-# Without node, without the packages of npm or with a mistake in the page the output holds the page that says how to build it, and WORK/not_built says why.
+# Without node or without the packages of npm the output holds the page that says how to build it, and WORK/not_built says why. A mistake in the page
+# ends the build.
 
 # Copies that differ only; packages of an earlier build stay.
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/*)
@@ -47,7 +48,6 @@ foreach(command "build.mjs;dist" "embed.mjs;dist;${OUTPUT}")
   execute_process(COMMAND ${NODE} ${command} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status)
   if(NOT status STREQUAL "0")
     list(JOIN command " " command)
-    rapidc_fall_back("node ${command} failed in ${WORK}")
-    return()
+    message(FATAL_ERROR "node ${command} failed in ${WORK}: correct the mistake in web/pendant that is reported above")
   endif()
 endforeach()

@@ -74,6 +74,14 @@ diag::Diagnostic* Reports::reportAfterExpr(diag::Message<2> message, diag::Messa
     return report(say::ForeignSpelling, in_.pos(), {"?", "IF ... THEN ... ELSE ... ENDIF to choose a value"});
 }
 
+diag::Diagnostic* Reports::reportUnfinishedLine(TokenIndex last) {
+    diag::Diagnostic* d = reportAt(say::MissingSemicolon, in_.endOf(last), {in_.describe(last)});
+    if (d == nullptr) return nullptr;
+    d->cause = diag::newLineCause();
+    in_.tree().unfinishedLines.push_back({d->range.begin, static_cast<uint32_t>(d->cause)});
+    return d;
+}
+
 /// Whether nothing has been reported since `last_`.
 bool Reports::isLastReport() const {
     return last_ && lastCount_ == sink_.all().size();

@@ -45,6 +45,8 @@ class Reports {
     diag::Diagnostic* reportAt(diag::Message<N> message, SourceRange range, diag::MessageArgs<N> args) {
         return reportCode(message.code, range, args);
     }
+    /// The instruction ends with this token, without its semicolon.
+    diag::Diagnostic* reportUnfinishedLine(TokenIndex last);
     diag::Diagnostic* reportAt(diag::Message<0> message, SourceRange range) {
         return reportCode(message.code, range, {});
     }

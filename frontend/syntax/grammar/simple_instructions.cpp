@@ -53,8 +53,7 @@ Stmt* InstructionParser::parseProcedureCall() {
     auto* node = make<CallStmt>(NodeKind::CallStmt);
     node->name = take();
     if (ahead().calleeEndsHere(node->name, node->name)) {
-        fix(reportAt(say::MissingSemicolon, endOf(node->name), {describe(node->name)}), endOf(node->name),
-            ";");
+        fix(reports().reportUnfinishedLine(node->name), endOf(node->name), ";");
         return finish(node);
     }
     if (kind() == K::LeftParen && parseParenthesisedCall(node)) return finish(node);

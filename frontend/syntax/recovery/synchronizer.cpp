@@ -17,8 +17,7 @@ void Synchronizer::endInstruction(std::string_view expected) {
     if (assignmentBelow()) return skipInstruction();
     if (!panic() && kind() != K::Error) {
         if (block().startsAfresh()) {
-            diag::Diagnostic* missing =
-                reportAt(say::MissingSemicolon, endOf(pos() - 1), {describe(pos() - 1)});
+            diag::Diagnostic* missing = reports().reportUnfinishedLine(pos() - 1);
             const bool twoWords = pos() > 1 && kindAt(pos() - 1) == K::Identifier &&
                                   kindAt(pos() - 2) == K::Identifier && startsLine(pos() - 2);
             fix(missing, endOf(pos() - 1), ";");

@@ -9,6 +9,10 @@
 
 #include <string_view>
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 /// The conveyor that moves the work object; null when none does.
@@ -26,5 +30,8 @@ Status activateConveyor(TaskCore* task, MechanicalUnit& unit, bool active);
 Status trackConveyor(TaskCore* task, const data::Wobjdata& workObject, motion::MoveCommand& command);
 /// A movement that follows the object is not finished.
 bool isFollowed(const MotionDriver& motion, const motion::TrackedObject& object);
+
+/// Conveyors and their objects between two processes (--state).
+void keepConveyors(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

@@ -16,7 +16,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -51,10 +53,19 @@ bool isNamed(const CfgInstance& instance, std::string_view name) {
     return rapid::config::sameName(instance.text("name"), name);
 }
 
-/// EXT_MOTION_DATA with this name. "default" is there without a configuration.
+/// What a controller with the option has as long as its MOC.cfg says nothing of external motion data.
+bool isPredefined(std::string_view name) {
+    constexpr const char* kNames[] = {"default", "raw", "joint", "pose", "pathcorr", "path_corr"};
+    return std::any_of(std::begin(kNames), std::end(kNames),
+                       [&](const char* each) { return rapid::config::sameName(each, name); });
+}
+
+/// EXT_MOTION_DATA with this name; "default" is always there.
 Status motionData(TaskCore* task, std::string_view name, lib::ExternalMotionData& data) {
+    bool hasAny = false;
     for (const char* domain : {"MOC", "ROBOT"}) {
         for (const CfgInstance* instance : taskOf(task).controller().instances(domain, "EXT_MOTION_DATA")) {
+            hasAny = true;
             if (!isNamed(*instance, name)) continue;
             double level = 1;
             (void)instance->number("ext_motion_level", level);
@@ -67,6 +78,10 @@ Status motionData(TaskCore* task, std::string_view name, lib::ExternalMotionData
         }
     }
     if (rapid::config::sameName(name, "default")) return kOk;
+    if (!hasAny && isPredefined(name)) {
+        if (rapid::config::sameName(name, "raw")) data.filterHz = 0;
+        return kOk;
+    }
     return lib::egmMisused(
         task, fmt::format("The configuration does not have external motion data named \"{}\". "
                           "Define EXT_MOTION_DATA with that name in MOC.cfg, or use \"default\".",

@@ -41,6 +41,8 @@ Status rt_AliasIO(TaskCore* task, void* FromSignal, const TypeDesc* FromSignalTy
         id = io.find(static_cast<const String*>(FromSignal)->view());
     else if (FromSignalType->kind == DescKind::Handle)
         id = io.idOf(handleAt(FromSignal));
+    if (FromSignalType->kind == DescKind::Handle && handleAt(FromSignal) == 0)
+        return lib::fail(task, err::ERR_NO_ALIASIO_DEF, "AliasIO: the variable FromSignal is not connected");
     if (id < 0 || ToSignalType->kind != DescKind::Handle)
         return lib::fail(task, err::ERR_ALIASIO_DEF, "AliasIO: FromSignal names no configured signal");
     if (!sameSignalType(ToSignalType->baseName, io.config(id).type))

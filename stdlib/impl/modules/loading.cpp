@@ -79,24 +79,29 @@ ModuleLoader* loaderOf(Controller& controller) {
 
 } // namespace
 
-Status readModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out) {
+ReadProblem tryReadModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out) {
     out.shown = written(directory, file);
     if (!hostPath(task, directory, file, out.path))
-        return fail(task, err::ERR_FILNOTFND, fmt::format("{} is not a file in HOME:", out.shown));
+        return {err::ERR_FILNOTFND, fmt::format("{} is not a file in HOME:", out.shown)};
     struct stat status{};
     if (::stat(out.path.c_str(), &status) != 0)
-        return fail(task, err::ERR_FILNOTFND, fmt::format("there is no file {}", out.shown));
+        return {err::ERR_FILNOTFND, fmt::format("there is no file {}", out.shown)};
     std::ifstream in(out.path, std::ios::binary);
     if (!S_ISREG(status.st_mode) || !in)
-        return fail(task, err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown));
+        return {err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown)};
     if (static_cast<std::size_t>(status.st_size) > kLargestModule)
-        return fail(task, err::ERR_PRGMEMFULL, fmt::format("{} does not fit into program memory", out.shown));
+        return {err::ERR_PRGMEMFULL, fmt::format("{} does not fit into program memory", out.shown)};
     std::stringstream bytes;
     bytes << in.rdbuf();
-    if (in.bad()) return fail(task, err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown));
+    if (in.bad()) return {err::ERR_IOERROR, fmt::format("{} cannot be read", out.shown)};
     out.bytes = bytes.str();
     out.time = static_cast<int64_t>(status.st_mtime);
-    return kOk;
+    return {};
+}
+
+Status readModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out) {
+    const ReadProblem problem = tryReadModule(task, directory, file, out);
+    return problem.number == kOk ? kOk : fail(task, problem.number, problem.text);
 }
 
 Time loadingTime(const ModuleFile& file) {

@@ -15,7 +15,15 @@ struct ModuleFile {
     int64_t time = -1; ///< of its last change
 };
 
-/// Finds and reads it. Raises ERR_FILNOTFND and ERR_IOERROR.
+/// Why a file cannot be loaded; kOk: it can.
+struct ReadProblem {
+    Status number = kOk;
+    std::string text;
+};
+
+/// Finds and reads it: ERR_FILNOTFND, ERR_IOERROR or ERR_PRGMEMFULL.
+ReadProblem tryReadModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out);
+/// The same; raises the problem.
 Status readModule(TaskCore* task, const String& directory, const String* file, ModuleFile& out);
 /// How long loading takes, in virtual time.
 Time loadingTime(const ModuleFile& file);

@@ -9,6 +9,7 @@
 #include <deque>
 #include <fmt/format.h>
 #include <optional>
+#include <unistd.h>
 
 using namespace rt;
 
@@ -18,6 +19,7 @@ struct Session {
     lib::ModuleFile file;
     bool dynamic = false;
     Time ready = 0;
+    lib::ReadProblem problem; ///< raised by WaitLoad
     uint32_t task = 0;
 };
 
@@ -60,8 +62,9 @@ Status rt_StartLoad(TaskCore* task, bool Dynamic, const String* FilePath, const 
     Session session;
     session.dynamic = Dynamic;
     session.task = taskOf(task).index();
-    if (const Status status = lib::readModule(task, *FilePath, File, session.file); status != kOk)
-        return status;
+    session.problem = lib::tryReadModule(task, *FilePath, File, session.file);
+    if (session.problem.number == err::ERR_FILNOTFND)
+        return lib::fail(task, session.problem.number, session.problem.text);
     session.ready = taskOf(task).now() + lib::loadingTime(session.file);
     *LoadNo = sessions(task).add(std::move(session));
     return kOk;
@@ -71,6 +74,7 @@ Status rt_WaitLoad(TaskCore* task, const String* UnloadPath, const String* Unloa
                    bool CheckRef) {
     std::optional<Session>* place = sessions(task).find(*LoadNo);
     if (place == nullptr) return notInUse(task);
+    const bool isLoading = taskOf(task).now() < (*place)->ready;
     if (const Status status = taskOf(task).sleepUntil((*place)->ready); status != kOk) return status;
     place = sessions(task).find(*LoadNo);
     if (place == nullptr) return notInUse(task); // another task cancelled it meanwhile
@@ -80,6 +84,9 @@ Status rt_WaitLoad(TaskCore* task, const String* UnloadPath, const String* Unloa
     const Session session = std::move(**place);
     place->reset();
     *LoadNo = 0;
+    if (session.problem.number != kOk) return lib::fail(task, session.problem.number, session.problem.text);
+    if (isLoading && ::access(session.file.path.c_str(), F_OK) != 0)
+        return lib::fail(task, err::ERR_FILNOTFND, session.file.shown + " was removed while it was loaded");
     return lib::linkModule(task, session.file, session.dynamic, CheckRef);
 }
 

@@ -17,11 +17,6 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-Status checkPercent(TaskCore* task, float value, double least, double most, const char* text) {
-    if (value >= least && value <= most) return kOk;
-    return lib::failWith(task, err::ERR_ARGVALERR, text, least, most);
-}
-
 /// Place of a unit's axis among the external axes of the task's motion group; -1 and ERR_AXIS_PAR raised when it has none.
 int externalAxis(TaskCore* task, const MechanicalUnit& unit, float axis, Status& status) {
     const bool isThere = axis == std::floor(axis) && axis >= 1 && axis <= static_cast<float>(unit.own.size());
@@ -88,24 +83,5 @@ Status rt_SpeedLimCheckPoint(TaskCore* task, float RobSpeed) {
     limits.tcp = RobSpeed;
     lib::motionOf(task).setSpeedLimits(limits);
     return kOk;
-}
-
-// Axes follow their path exactly: softness and servo tuning are checked, and have nothing to act on.
-Status rt_SoftAct(TaskCore* task, Handle* MechUnit, float Axis, float Softness, const float* Ramp) {
-    Status status = kOk;
-    if (lib::robotAxis(task, MechUnit, Axis, status) < 0) return status;
-    if (Ramp != nullptr && !(*Ramp > 0))
-        return lib::fail(task, err::ERR_ARGVALERR, "SoftAct: the ramp must be above 0 percent");
-    return checkPercent(task, Softness, 0, 100, "SoftAct: the softness must lie between {} and {} percent");
-}
-
-Status rt_TuneServo(TaskCore* task, Handle* MecUnit, float Axis, float TuneValue, const float* Type) {
-    Status status = kOk;
-    if (lib::robotAxis(task, MecUnit, Axis, status) < 0) return status;
-    if (Type != nullptr) {
-        status = checkPercent(task, *Type, k::TUNE_DF, k::TUNE_DL, "TuneServo: types of tuning are {} to {}");
-        if (status != kOk) return status;
-    }
-    return checkPercent(task, TuneValue, 1, 500, "TuneServo: the value must lie between {} and {} percent");
 }
 }

@@ -221,14 +221,7 @@ Status rt_HollowWristReset(TaskCore*) {
     return kOk;
 }
 
-// Settings of what the virtual arm does not have - soft servos, servo tuning, a path resolution - are accepted: they have
-// nothing to act on.
-Status rt_SoftDeact(TaskCore*, const float*) {
-    return kOk;
-}
-Status rt_TuneReset(TaskCore*) {
-    return kOk;
-}
+/// The virtual arm has no path resolution.
 Status rt_PathResol(TaskCore*, float) {
     return kOk;
 }

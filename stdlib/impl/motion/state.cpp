@@ -6,6 +6,7 @@
 #include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/independent_axes.h"
 #include "stdlib/impl/motion/path_recorder.h"
+#include "stdlib/impl/motion/soft_servo.h"
 #include "stdlib/impl/motion/speed_outputs.h"
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
@@ -42,6 +43,7 @@ void resetSettings(Task& task) {
     endTemporaryZones(task);
     endPathRecording(motion);
     endCorrections(motion);
+    endSoftServo(task.controller(), motion);
     endIndependentMode(motion);
     endSensorSync(task);
     resetIndexing(task.controller());

@@ -3,6 +3,7 @@
 
 #include "stdlib/impl/motion/units.h"
 
+#include "runtime/host/unit_activation.h"
 #include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
@@ -22,40 +23,19 @@ Status setActive(TaskCore* task, Handle handle, bool active) {
     Status status = kOk;
     MechanicalUnit* unit = lib::unitOf(task, handle, status);
     if (unit == nullptr) return status;
-    if (unit->isRobot)
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         unit->name + " is a robot: it is always active, and only additional axes can be "
-                                      "activated and deactivated");
-    if (!active && unit->staysActive)
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         unit->name + " must not be deactivated (MOC.cfg, deactivation_forbidden)");
+    Controller& controller = taskOf(task).controller();
+    if (const std::string refusal = refusalOfActivation(controller, *unit, active); !refusal.empty())
+        return lib::fail(task, err::ERR_ARGVALERR, refusal);
     if (unit->isConveyor) return lib::activateConveyor(task, *unit, active);
     MotionDriver& driver = lib::motionOf(task);
     if (unit->group != driver.group())
         return lib::fail(task, err::ERR_ARGVALERR,
                          unit->name + " belongs to the mechanical unit group of another task");
     if (unit->isActive == active) return kOk;
-    Controller& controller = taskOf(task).controller();
-    if (const MechanicalUnit* other = active ? controller.units().sharesAxes(*unit) : nullptr)
-        return lib::fail(task, err::ERR_ARGVALERR,
-                         unit->name + " shares a logical axis with " + other->name +
-                             ", which is active: deactivate that first (DeactUnit)");
-    for (const MechanicalUnit::Axis& axis : unit->own)
-        if (driver.system().independent({true, axis.index}) != nullptr)
-            return lib::fail(task, err::ERR_ARGVALERR,
-                             unit->name + " has an axis in independent mode: execute IndReset first");
     status = driver.waitIdle(taskOf(task));
     if (status == kOk) status = driver.waitZeroSpeed(taskOf(task));
     if (status != kOk) return status;
-    motion::JointTarget here = driver.system().currentJoints();
-    controller.units().setActive(*unit, active, here.extax);
-    for (const MechanicalUnit::Axis& axis : unit->own) {
-        motion::ExternalAxisModel model = axis.limits;
-        model.present = active;
-        driver.system().setExternalAxis(axis.index, model);
-    }
-    driver.system().placeAt(here);
-    driver.refresh();
+    activateUnit(controller, *unit, active);
     return kOk;
 }
 

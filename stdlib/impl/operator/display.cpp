@@ -1,6 +1,7 @@
 // Manual 1.10: texts for the operator.
 
 #include "runtime/host/controller.h"
+#include "stdlib/impl/operator/question.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/written_value.h"
 
@@ -26,6 +27,7 @@ Status rt_TPErase(TaskCore* task) {
 
 Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const bool* Bool,
                   const data::Pos* Pos, const data::Orient* Orient, const double* Dnum) {
+    if (const Status status = lib::checkConnected(task)) return status;
     taskOf(task).controller().panel().writeLine(lib::withValue(*String, Num, Bool, Pos, Orient, Dnum));
     return kOk;
 }
@@ -51,15 +53,18 @@ Status rt_TPShow(TaskCore*, float) {
     return kOk;
 }
 
-/// RobotWare 7 has no views of the old FlexPendant, and this controller is one of it.
+/// RobotWare 7 has no views of the old FlexPendant, and this controller is one of it. That the display is full comes from the
+/// stimulus.
 rt::Status rt_UIShow(TaskCore* task, const String* AssemblyName, const String* TypeName, const String*,
                      float* InstanceId, float* Status, bool) {
-    constexpr float kNoAssembly = -2;
+    constexpr float kNoRoom = -1, kNoAssembly = -2;
+    const bool isFull = !taskOf(task).controller().panel().hasRoomForViews();
     if (InstanceId) *InstanceId = 0;
     if (Status) {
-        *Status = kNoAssembly;
+        *Status = isFull ? kNoRoom : kNoAssembly;
         return kOk;
     }
+    if (isFull) return lib::fail(task, err::ERR_UISHOW_FULL, "the display has no room for a further view");
     return lib::fail(task, err::ERR_UISHOW_FATAL,
                      "view " + std::string(TypeName->view()) + " of " + std::string(AssemblyName->view()) +
                          " cannot be shown: RobotWare 7 has no such views");

@@ -125,8 +125,10 @@ Status rt_UIMsgWrite(TaskCore* task, const String* Header, const String* Message
                      int32_t MsgArrayDim1, bool Wrap, const float* Icon, const String* Image, bool* PersBool,
                      const String* PersBoolName, const bool* AbortValue, Handle* UIActiveSignal) {
     PanelMessage message;
-    Status status = lib::fillText(task, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, Image},
-                                  message.header, message.icon, message.image, message.lines);
+    Status status = lib::checkConnected(task);
+    if (status == kOk)
+        status = lib::fillText(task, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, Image},
+                               message.header, message.icon, message.image, message.lines);
     const bool* ends = PersBool;
     if (status == kOk && PersBoolName) ends = persistentNamed(task, *PersBoolName, status);
     if (status != kOk) return status;

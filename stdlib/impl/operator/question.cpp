@@ -12,6 +12,8 @@
 namespace rt::lib {
 namespace {
 
+constexpr const char* kNotConnected = "no FlexPendant is connected";
+
 /// Sets \BreakFlag, or raises.
 Status ended(TaskCore* task, const Breaks& breaks, Status number, const char* text) {
     if (!breaks.breakFlag) return fail(task, number, text);
@@ -110,6 +112,8 @@ Status ask(TaskCore* task, const Breaks& breaks, Dialog& dialog, const Accept& a
     if (active.status() != kOk) return active.status();
     watch.prepare(dialog);
     Task& owner = taskOf(task);
+    if (!owner.controller().panel().isConnected())
+        return ended(task, breaks, err::ERR_TP_NO_CLIENT, kNotConnected);
     OperatorPanel& panel = owner.controller().panel();
     for (;;) {
         DialogEnd end = DialogEnd::Answered;
@@ -123,6 +127,11 @@ Status ask(TaskCore* task, const Breaks& breaks, Dialog& dialog, const Accept& a
         if (breaks.breakFlag) *breaks.breakFlag = 0;
         return kOk;
     }
+}
+
+Status checkConnected(TaskCore* task) {
+    if (taskOf(task).controller().panel().isConnected()) return kOk;
+    return fail(task, err::ERR_TP_NO_CLIENT, kNotConnected);
 }
 
 ActiveSignal::ActiveSignal(TaskCore* task, const Handle* handle) : io_(taskOf(task).controller().io()) {

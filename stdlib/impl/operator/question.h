@@ -36,6 +36,9 @@ using Accept = std::function<Reply(const std::string& answer)>;
 /// ERR_TP_DOBREAK, ERR_TP_PERSBOOLBREAK or ERR_TP_NO_CLIENT.
 Status ask(TaskCore* task, const Breaks& breaks, Dialog& dialog, const Accept& accept, bool& answered);
 
+/// ERR_TP_NO_CLIENT while no FlexPendant is connected.
+Status checkConnected(TaskCore* task);
+
 /// Sets a digital output as long as it exists (\UIActiveSignal).
 class ActiveSignal {
   public:

@@ -23,6 +23,9 @@ namespace rt::lib {
 /// Which way a task reads its queue (parameter RmqMode). Open: not configured, either way.
 enum class QueueMode : uint8_t { Open, Interrupt, Synchronous };
 
+/// Sender of a message that names a client which does not exist.
+inline constexpr Handle kNoSuchClient = -1;
+
 struct Message {
     const TypeDesc* element = nullptr;      ///< of the value, or of the elements of an array
     std::array<int32_t, 3> dimensions = {}; ///< all 0: no array
@@ -62,6 +65,8 @@ class MessageQueues {
     Handle slotOf(const Task& task) const;
     /// Null for 0 and for a value that is not an identity.
     MessageQueue* find(Handle slot);
+    /// The sender is none, or a client that exists; otherwise reading the message raises ERR_RMQ_INVMSG.
+    bool isValid(const Message& message) { return message.sender == 0 || find(message.sender) != nullptr; }
     /// Without regard to case; 0 when there is no such queue.
     Handle findByName(std::string_view name) const;
 

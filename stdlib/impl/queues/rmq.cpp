@@ -81,10 +81,16 @@ const lib::Message* messageOf(TaskCore* task, Handle handle, Status& status) {
     return message;
 }
 
-/// The first message of the queue into the variable; there must be one.
-void take(TaskCore* task, MessageQueue& queue, Handle* variable) {
-    *variable = queuesOf(task).keep(std::move(queue.messages.front()));
+/// The first message of the queue into the variable; there must be one. It leaves the queue also when it is not valid.
+Status take(TaskCore* task, MessageQueue& queue, Handle* variable) {
+    MessageQueues& queues = queuesOf(task);
+    lib::Message message = std::move(queue.messages.front());
     queue.messages.pop_front();
+    if (!queues.isValid(message))
+        return lib::fail(task, err::ERR_RMQ_INVMSG,
+                         "the message comes from a client that does not exist, or exists no more");
+    *variable = queues.keep(std::move(message));
+    return kOk;
 }
 
 } // namespace
@@ -142,8 +148,7 @@ Status rt_RMQGetMessage(TaskCore* task, Handle* Message) {
                        "is for tasks in interrupt mode; this one is configured as Synchronous.");
     if (own.messages.empty())
         return lib::fail(task, err::ERR_RMQ_NOMSG, "the message queue of the task is empty");
-    take(task, own, Message);
-    return kOk;
+    return take(task, own, Message);
 }
 
 Status rt_RMQReadWait(TaskCore* task, Handle* Message, const float* TimeOut) {
@@ -157,8 +162,7 @@ Status rt_RMQReadWait(TaskCore* task, Handle* Message, const float* TimeOut) {
         {&own.arrived}, [&own] { return !own.messages.empty(); }, lib::deadlineOf(task, TimeOut), 0};
     if (const Status status = taskOf(task).waitFor(spec, result); status != kOk) return status;
     if (result == WaitResult::Timeout) return timedOut(task);
-    take(task, own, Message);
-    return kOk;
+    return take(task, own, Message);
 }
 
 Status rt_RMQGetMsgHeader(TaskCore* task, Handle* Message, data::Rmqheader* Header, Handle* SenderId,

@@ -101,6 +101,9 @@ Status rt_STOpen(TaskCore* task, const String* ToolName, bool WaitZeroSpeed, boo
     ServoGun* gun = gunToMove(task, ToolName->view(), Sync, status);
     if (gun == nullptr) return status;
     if (WaitZeroSpeed && (status = lib::motionOf(task).waitZeroSpeed(taskOf(task))) != kOk) return status;
+    if (gun->phase() == ServoGun::Phase::Calibrating)
+        return lib::fail(task, err::ERR_SGUN_NOTOPEN,
+                         "the servo gun is being calibrated: it opens when that ends");
     return gun->phase() == ServoGun::Phase::Open ? kOk : gun->open(task, Conc);
 }
 

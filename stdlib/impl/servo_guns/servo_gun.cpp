@@ -90,13 +90,25 @@ Status ServoGun::order(TaskCore* task, double position, double speed, bool conc,
     return orderMove(task, externalMove(task, target, false, nullptr), move, std::move(actions));
 }
 
+/// A movement begins, unless an earlier process ended in it.
+Status ServoGun::begin(TaskCore* task, Phase phase) {
+    if (std::exchange(wasCutOff_, false))
+        return fail(task, err::ERR_SGUN_MOTOFF, "the motors went off during the movement of the servo gun");
+    interrupted_ = kOk;
+    enter(phase);
+    return kOk;
+}
+
 /// Until the gun is in this phase, or the motors' end has taken it out of its movement.
 Status ServoGun::waitPhase(TaskCore* task, Phase phase) {
     WaitSpec spec;
     spec.queues = {&changed_};
     spec.condition = [this, phase] { return phase_ == phase || interrupted_ != kOk; };
     WaitResult result{};
-    if (const Status status = taskOf(task).waitFor(spec, result)) return status;
+    isAwaited_ = true;
+    const Status status = taskOf(task).waitFor(spec, result);
+    isAwaited_ = false;
+    if (status != kOk) return status;
     const Status why = std::exchange(interrupted_, kOk);
     if (why == kOk) return kOk;
     return fail(task, why,
@@ -105,12 +117,11 @@ Status ServoGun::waitPhase(TaskCore* task, Phase phase) {
 }
 
 Status ServoGun::close(TaskCore* task, double expected, bool conc) {
+    if (const Status status = begin(task, Phase::Closing)) return status;
     const double sheet =
         controller_.service<Surroundings>().value(unit_.name, Surroundings::kThickness, expected);
     thickness_ = std::max(sheet - (wear() - wearKnown_), 0.0);
     openAt_ = motion_.system().plannedEnd().extax[unit_.own.front().index];
-    interrupted_ = kOk;
-    enter(Phase::Closing);
     if (const Status status = order(task, thickness_, kFast, conc, [this] { met(); })) {
         enter(Phase::Open);
         return status;
@@ -119,18 +130,16 @@ Status ServoGun::close(TaskCore* task, double expected, bool conc) {
 }
 
 Status ServoGun::open(TaskCore* task, bool conc) {
+    if (const Status status = begin(task, Phase::Opening)) return status;
     controller_.scheduler().cancel(std::exchange(ready_, 0));
-    interrupted_ = kOk;
-    enter(Phase::Opening);
     if (const Status status = order(task, openAt_, kFast, conc, [this] { enter(Phase::Open); }))
         return status;
     return conc ? kOk : waitPhase(task, Phase::Open);
 }
 
 Status ServoGun::calibrate(TaskCore* task, Calibration kind, double prePos, bool conc) {
+    if (const Status status = begin(task, Phase::Calibrating)) return status;
     const double from = motion_.system().plannedEnd().extax[unit_.own.front().index];
-    interrupted_ = kOk;
-    enter(Phase::Calibrating);
     const auto found = [this, kind] {
         if (interrupted_ != kOk) return;
         isSynchronized_ = true;
@@ -162,6 +171,7 @@ void ServoGun::endIndependence() {
 }
 
 void ServoGun::reset() {
+    wasCutOff_ = false;
     if (phase_ == Phase::Building || phase_ == Phase::Closed) return;
     interrupted_ = kOk;
     enter(Phase::Open);

@@ -4,10 +4,16 @@
 
 #include "stdlib/impl/servo_guns/gun_setup.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+
+namespace rt {
+struct StateKeepers;
+}
 
 namespace rt::lib {
 
@@ -41,11 +47,17 @@ class ServoGun {
     /// Independent of the robot's movements from now on, and moves.
     Status moveAlone(TaskCore* task, double position);
     void endIndependence();
+    /// What another process needs to continue (--state).
+    nlohmann::json state() const;
+    /// Takes that over. A movement in progress was ended by the power failure: the instruction that waited for it raises
+    /// ERR_SGUN_MOTOFF when it is executed again. Throws what the JSON library throws.
+    void restore(const nlohmann::json& state);
     /// The program begins anew: a movement in progress is forgotten.
     void reset();
 
   private:
     Status order(TaskCore* task, double position, double speed, bool conc, std::function<void()> atEnd);
+    Status begin(TaskCore* task, Phase phase);
     Status waitPhase(TaskCore* task, Phase phase);
     void take(ArmChange news);
     void met();
@@ -61,6 +73,8 @@ class ServoGun {
     double openAt_ = 0, thickness_ = 0;
     double wearBase_ = 0, wearKnown_ = 0, tipWear_ = 0, adjustment_ = 0;
     double rampPercent_ = 100;
+    bool isAwaited_ = false;   ///< an instruction waits for the end of its movement
+    bool wasCutOff_ = false;   ///< by the end of an earlier process
     Status interrupted_ = kOk; ///< ERR_SGUN_ESTOP or ERR_SGUN_MOTOFF during the movement
     EventToken ready_ = 0;
     WaitQueue changed_;
@@ -73,9 +87,13 @@ class ServoGuns {
     ServoGun* find(Controller& controller, std::string_view unit);
     /// The program of a task begins anew.
     void reset();
+    const std::map<const MechanicalUnit*, std::unique_ptr<ServoGun>>& known() const { return guns_; }
 
   private:
     std::map<const MechanicalUnit*, std::unique_ptr<ServoGun>> guns_; ///< null: not a gun
 };
+
+/// Servo guns between two processes (--state).
+void keepServoGuns(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

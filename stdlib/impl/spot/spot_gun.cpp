@@ -1,5 +1,8 @@
 #include "stdlib/impl/spot/spot_gun.h"
 
+#include "config/json_text.h"
+#include "runtime/debug/state_keepers.h"
+#include "runtime/host/json_numbers.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -201,6 +204,25 @@ SpotGun* spotGunOf(TaskCore* task, const float* number, const data::Gundata* gun
         return nullptr;
     }
     return slot.get();
+}
+
+void keepSpotGuns(Controller& controller, StateKeepers& kept) {
+    kept.keepers["spotGuns"] = {[&controller] {
+                                    nlohmann::json all = nlohmann::json::array();
+                                    for (const auto& [number, gun] : controller.service<SpotGuns>().byNumber)
+                                        all.push_back({number, gun->weldsSinceCalibration});
+                                    return all;
+                                },
+                                [&controller](const nlohmann::json& all) {
+                                    for (const nlohmann::json& entry : all) {
+                                        const int number = numberFrom<int>(entry.at(0));
+                                        if (number < 1 || number > kMostGuns) continue;
+                                        auto& gun = controller.service<SpotGuns>().byNumber[number];
+                                        if (!gun) gun = std::make_unique<SpotGun>();
+                                        (void)gun->read(controller, number); // its user reports what is wrong
+                                        gun->weldsSinceCalibration = numberFrom<int>(entry.at(1));
+                                    }
+                                }};
 }
 
 void superviseGuns(TaskCore* task) {

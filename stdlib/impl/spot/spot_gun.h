@@ -8,6 +8,10 @@
 #include <map>
 #include <string>
 
+namespace rt {
+struct StateKeepers;
+}
+
 namespace rt::lib {
 
 class SpotGun {
@@ -58,5 +62,8 @@ SpotGun* spotGunOf(TaskCore* task, const float* number, const data::Gundata* gun
 void superviseGuns(TaskCore* task);
 /// The program of a task begins anew: guns open.
 void openGuns(Task& task);
+
+/// The welds of the guns since their calibration, between two processes (--state).
+void keepSpotGuns(Controller& controller, StateKeepers& kept);
 
 } // namespace rt::lib

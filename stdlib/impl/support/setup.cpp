@@ -1,4 +1,5 @@
 #include "stdlib/impl/arc/arc_process.h"
+#include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/dispense/dispense_process.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/flow/booked_numbers.h"
@@ -7,6 +8,7 @@
 #include "stdlib/impl/io/cyclic_bools.h"
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/motion/collisions.h"
+#include "stdlib/impl/motion/soft_servo.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/motion/world_zones.h"
@@ -40,13 +42,18 @@ void setUpStandardLibrary(Controller& controller) {
     kept.orderAgain = lib::orderAgain;
     lib::keepSettings(controller, kept);
     lib::keepBookedNumbers(controller, kept);
+    lib::keepCameras(controller, kept);
     lib::keepClocks(controller, kept);
+    lib::keepConveyors(controller, kept);
     lib::keepFiles(controller, kept);
     lib::keepSignalVariables(controller, kept);
     lib::keepCyclicBools(controller, kept);
     lib::keepMessages(controller, kept);
+    lib::keepServoGuns(controller, kept);
+    lib::keepSpotGuns(controller, kept);
     lib::keepTriggers(controller, kept);
     lib::keepWorldZones(controller, kept);
+    lib::keepSoftServo(controller, kept);
 }
 
 } // namespace rt

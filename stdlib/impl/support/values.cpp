@@ -6,6 +6,7 @@
 
 #include "stdlib_constants.h"
 
+#include <cmath>
 #include <cstring>
 
 using namespace rt;
@@ -68,5 +69,15 @@ bool rt_strEqual(const String* a, const String* b) {
 
 bool rt_anyEqual(const void* a, const void* b, const TypeDesc* type) {
     return sameValue(static_cast<const char*>(a), static_cast<const char*>(b), *type);
+}
+
+/// a - remainder is a multiple of b, so the quotient is whole; 64 bits of precision leave no doubt which number it is.
+double rt_wholeQuotient(double a, double b) {
+    const long double multiple = static_cast<long double>(a) - std::fmod(a, b);
+    return static_cast<double>(std::round(multiple / b));
+}
+
+double rt_wholeRemainder(double a, double b) {
+    return std::fmod(a, b);
 }
 }

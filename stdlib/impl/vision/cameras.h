@@ -7,10 +7,16 @@
 
 #include "stdlib_types.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <deque>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace rt {
+struct StateKeepers;
+}
 
 namespace rt::lib {
 
@@ -55,10 +61,17 @@ class Camera {
     /// Null: the camera has no such parameter. Those of the last image come before those of the job and of the camera.
     CameraValue* parameter(std::string_view name);
 
+    /// What another process needs to continue (--state); times from `now` on.
+    nlohmann::json state(Time now) const;
+    /// Takes that over; jobs that the file no longer has are not loaded. Throws what the JSON library throws.
+    void restore(const nlohmann::json& state, Time now);
+
     double exposureTime, brightness, contrast;
     int unnamedScenes = 0; ///< images without \SceneId so far
 
   private:
+    CameraJob* jobFrom(const nlohmann::json& name);
+
     std::string name_;
     CameraFile file_;
     bool runMode_ = false;
@@ -74,6 +87,8 @@ class Camera {
 
 /// Reads the files of --camera; what is wrong with them is left in CameraNames::problem.
 void openCameras(Controller& controller);
+/// Cameras and their results between two processes (--state).
+void keepCameras(Controller& controller, StateKeepers& kept);
 /// Null: the camera has no file.
 Camera* findCamera(Controller& controller, int number);
 

@@ -25,6 +25,13 @@ TEST_CASE("names are compared without regard to case", "[config]") {
     CHECK_FALSE(sameName("a", "ab"));
     CHECK_FALSE(sameName("\u00D7", "\u00F7"));
     CHECK_FALSE(sameName("[", "{")); // they differ in the bit of the case
+    CHECK(compareNames("Alpha", "alpHA") == 0);
+    CHECK(compareNames("a", "B") < 0);
+    CHECK(compareNames("Z1", "a1") > 0);
+    CHECK(compareNames("ab", "A") > 0); // the longer one comes later
+    CHECK(compareNames("", "a") < 0);
+    CHECK(compareNames("\u00C9", "\u00E9") == 0);
+    CHECK(compareNames("z", "\u00E4") < 0); // letters beyond ASCII come last, as bytes
     CHECK(beginsWithName("T_Rob1", "t_"));
     CHECK_FALSE(beginsWithName("T", "t_"));
     CHECK(endsWithName("main.MODX", ".modx"));

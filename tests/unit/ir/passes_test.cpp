@@ -488,6 +488,15 @@ TEST_CASE("natives are bounded as their declaration says", "[ir]") {
     CHECK(checksOfResult("") == 1);
     CHECK(checksOfResult(" finite") == 0);
     CHECK(checksOfResult(" bounded") == 0);
+    // The square of a number of 52 bits is in range, its cube is not.
+    const auto checksOfPower = [](const std::string& attributes, const std::string& power) {
+        return checksInLoop("    %7 = native @\"rt_f\" (%5)\n    %8 = fmul %7, %7\n" + power,
+                            "native @\"rt_f\" plain f32 (f32)" + attributes + "\n");
+    };
+    const std::string square = "    %9 = ftrunc %8\n", cube = "    %9 = fmul %8, %7\n";
+    CHECK(checksOfPower("", square) == 1);
+    CHECK(checksOfPower(" whole", square) == 0);
+    CHECK(checksOfPower(" whole", cube) == 1);
 }
 
 TEST_CASE("locals that others may store to are not bounded", "[ir]") {

@@ -183,6 +183,38 @@ TEST_CASE("the acceleration of an axis is limited", "[motion][limits]") {
     checkBinds(measured(system, command).axisGain, limit, 0.97);
 }
 
+// The accelerations of this robot were identified with 1 kg (docs/motion.md): these are the accelerations with it.
+TEST_CASE("the load of the recordings is part of what they gave", "[motion][limits]") {
+    MotionSystem system(robot::loadRobotModel("IRB 6640-180/2.55").value(), {});
+    MoveCommand command = axisOne(system, 40);
+    command.settings.accelerationPercent = 40;
+    const double free = measured(system, command).axisGain;
+    command = axisOne(system, -40);
+    command.settings.accelerationPercent = 40;
+    command.load.mass = 1;
+    command.load.inertia = 0.3;
+    CHECK(measured(system, command).axisGain == Approx(free).epsilon(1e-6));
+    command = axisOne(system, 40);
+    command.settings.accelerationPercent = 40;
+    command.load.mass = 181; // 180 kg more, the rated payload
+    CHECK(measured(system, command).axisGain == Approx(free / 1.5).epsilon(0.03));
+}
+
+// In the corner between two joint moves the tool turns back: slow at the turn, it must not be faster beside it.
+TEST_CASE("v_tcp holds where the tool turns back in a corner of axes", "[motion][limits]") {
+    MotionSystem system = smallRobot();
+    MoveCommand command = fast(system, MoveKind::AbsJoint);
+    command.speed.vTcp = 100;
+    command.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
+    command.joints.robax = {-3.30, 5.26, 26.03, 7.40, 52.26, -22.51};
+    REQUIRE(system.enqueue(command));
+    command.zone = {};
+    command.joints.robax = {-1.92, 9.71, -3.27, 24.31, 47.02, -18.88};
+    const double fastest = measured(system, command).tcp;
+    CHECK(fastest <= 100.5);
+    CHECK(fastest >= 99);
+}
+
 TEST_CASE("PathAccLim limits both changes of speed apart", "[motion][limits]") {
     MotionSystem system = smallRobot();
     MoveCommand command = line(system, 250);

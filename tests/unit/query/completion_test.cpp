@@ -316,3 +316,25 @@ TEST_CASE("query: a cancelled completion ends early", "[query][completion]") {
         completionAt(program.snapshot(), program.file(), program.offset(), {}, &cancel);
     CHECK(cut.items.size() < all.items.size());
 }
+
+TEST_CASE("query: a short list holds the best items of the long one", "[query][completion]") {
+    std::string declarations(kCell);
+    for (int i = 0; i < 300; ++i) // in an order of their own
+        declarations += "VAR speeddata Speed" + std::to_string(i * 7 % 300) + ";\nPROC work" +
+                        std::to_string(i * 11 % 300) + "()\nENDPROC\n";
+    const Program program({inMain("MoveL p10,$1;\n$2\ncount:=$3;", declarations)});
+    for (const int marker : {1, 2, 3}) {
+        CompletionOptions all, few;
+        all.limit = 100'000;
+        few.limit = 25;
+        const auto items = [&](const CompletionOptions& options) {
+            return completionAt(program.snapshot(), program.file(marker), program.offset(marker), options);
+        };
+        std::vector<std::string> best = labels(items(all));
+        CHECK_FALSE(items(all).incomplete);
+        REQUIRE(best.size() > 25);
+        best.resize(25);
+        CHECK(labels(items(few)) == best);
+        CHECK(items(few).incomplete);
+    }
+}

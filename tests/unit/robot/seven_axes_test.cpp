@@ -249,7 +249,8 @@ TEST_CASE("a hundred thousand postures of seven axes come back from pose, config
         }
         for (std::size_t i = 0; i < 7; ++i)
             worst = std::max(worst, std::fabs((*back)[i] - joints[i]));
-        if (n % 10 != 0) continue;
+        if (n % 3 != 0 && n != 23218 && n != 71275)
+            continue; // those two lie beside two singularities at once
         IkBranches branches;
         kinematics.inverseAll(flange, elsewhere, branches, armAngle);
         double nearest = 360;
@@ -267,6 +268,5 @@ TEST_CASE("a hundred thousand postures of seven axes come back from pose, config
     CHECK(regular > kPostures * 9 / 10);
     CHECK(lost == 0);
     CHECK(worst < 1e-6);
-    // Two solutions that lie within some degrees of each other beside two singularities at once may escape: 2 to 4 of 100,000.
-    CHECK(missed <= 1);
+    CHECK(missed == 0);
 }

@@ -261,3 +261,42 @@ TEST_CASE("observers hear of execution, events and signals", "[service]") {
     REQUIRE(served.comes([&](VirtualController&) { return executions.load() == 2; })); // started, stopped
     CHECK(events.load() >= 3); // motors on, program started, program stopped
 }
+
+TEST_CASE("the cycle of motion runs while something moves, and nothing is scheduled at rest", "[service]") {
+    constexpr const char* kMove = R"(MODULE Cycle
+  PROC main()
+    MoveAbsJ [[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+    Stop;
+    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+    Stop;
+  ENDPROC
+ENDMODULE
+)";
+    Served served(kMove);
+    REQUIRE(served.opened == rt::ExitStatus::Ended);
+    const auto isIdle = [](VirtualController& c) {
+        return !c.isRunning() && !c.core().scheduler().anythingPending();
+    };
+    CHECK(served.comes(isIdle));
+    CHECK(served.ask([](VirtualController& c) { return c.cycles().cycles; }) == 0);
+    served.ask([](VirtualController& c) {
+        c.setPace(0);
+        return c.setMotors(true);
+    });
+    CHECK(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
+    CHECK(served.comes([&](VirtualController& c) { return c.cycles().cycles > 10 && isIdle(c); }));
+    const auto seen = served.ask([](VirtualController& c) { return c.cycles(); });
+    CHECK(seen.missed == 0); // virtual time does not keep step with the wall clock
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(served.ask([](VirtualController& c) { return c.cycles().cycles; }) == seen.cycles);
+}
+
+TEST_CASE("a cycle is missed when it begins after the next one was due", "[service]") {
+    CycleCount count;
+    for (const rt::Time late : {0, 3'999'999, 4'000'000, 9'000'000})
+        count.count(late, 4 * rt::kMillisecond);
+    CHECK(count.cycles == 4);
+    CHECK(count.missed == 2);
+    CHECK(count.latest == 9'000'000);
+    CHECK(count.missedShare() == 50);
+}

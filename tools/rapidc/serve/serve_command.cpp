@@ -30,8 +30,22 @@ int serveInputs(serve::ServeSettings& settings) {
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
         serve::Serving serving(settings, controller);
         if (const std::string problem = serving.open(); !problem.empty()) return usageError(problem);
+        if (serving.hasKeptParameters()) {
+            status = controller.reopen();
+            if (status != rt::ExitStatus::Ended) {
+                fmt::print(stderr, "rapidc serve: with the system parameters of {}/SYSPAR\n",
+                           settings.systemFolder);
+                return static_cast<int>(status);
+            }
+        }
         serving.start();
         status = controller.run();
+        if (const service::CycleCount& cycles = controller.cycles(); cycles.missed > 0)
+            fmt::print(
+                stderr,
+                "rapidc serve: {} of {} motion cycles began late ({:.2f} %), the latest by {:.1f} ms\n",
+                cycles.missed, cycles.cycles, cycles.missedShare(),
+                static_cast<double>(cycles.latest) / rt::kMillisecond);
     }
     folders.clear();
     rt::StopSignals::endIfReceived();

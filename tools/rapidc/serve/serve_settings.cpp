@@ -7,9 +7,11 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/run_setup.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace rapidc::serve {
 
@@ -76,9 +78,33 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
         .typeName("DIR");
     command.add("--temp", settings.tempFolder, "the folder of $TEMP; default: a temporary one")
         .typeName("DIR");
+    command
+        .add("--system-dir", settings.systemFolder,
+             "the folder of $SYSTEM: changed system parameters stay in it; default: a temporary one")
+        .typeName("DIR");
+    command
+        .add("--certificate-dir", settings.certificateFolder,
+             "the folder that keeps the certificate of HTTPS; default: one of the user")
+        .typeName("DIR");
     rt::addRunOptions(command, controller.options, true);
     addAssumeSignalsOption(command, controller.inputs);
     addWarningOption(command, controller.inputs);
+}
+
+std::string certificateFolderOf(const ServeSettings& settings, std::string& problem) {
+    std::string folder = settings.certificateFolder;
+    const char* state = std::getenv("XDG_STATE_HOME");
+    const char* home = std::getenv("HOME");
+    if (folder.empty() && state != nullptr && state[0] == '/')
+        folder = std::string(state) + "/rapidc/certificate";
+    if (folder.empty() && home != nullptr && home[0] == '/')
+        folder = std::string(home) + "/.local/state/rapidc/certificate";
+    std::error_code code;
+    if (!folder.empty()) fs::create_directories(folder, code);
+    if (!code && !folder.empty() && ::access(folder.c_str(), W_OK) == 0) return folder;
+    if (!settings.certificateFolder.empty())
+        problem = fmt::format("--certificate-dir={}: the folder cannot be written", folder);
+    return {};
 }
 
 std::string complete(ServeSettings& settings,
@@ -118,7 +144,7 @@ std::string complete(ServeSettings& settings,
     };
     for (const auto& [volume, given] :
          {std::pair{"BACKUP", settings.backupFolder}, std::pair{"TEMP", settings.tempFolder},
-          std::pair{"RAMDISK", std::string()}, std::pair{"SYSTEM", std::string()},
+          std::pair{"RAMDISK", std::string()}, std::pair{"SYSTEM", settings.systemFolder},
           std::pair{"DATA", std::string()}})
         if (error = use(volume, given); !error.empty()) return error;
     return {};

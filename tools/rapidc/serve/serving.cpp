@@ -50,8 +50,13 @@ std::string Serving::listen(const char* option, http::Endpoint endpoint, uint16_
 
 std::string Serving::open() {
     std::string problem;
-    const auto identity = http::TlsIdentity::make("", {settings_.address}, problem);
+    const std::string folder = certificateFolderOf(settings_, problem);
+    if (!problem.empty()) return problem;
+    auto identity = http::TlsIdentity::make(folder, {settings_.address}, problem);
+    if (!identity && settings_.certificateFolder.empty())
+        identity = http::TlsIdentity::make("", {settings_.address}, problem);
     if (!identity) return problem;
+    plant_.setCertificate(identity->certificate());
     const std::string& address = settings_.address;
     problem =
         listen("--http-port",

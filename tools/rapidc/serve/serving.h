@@ -25,6 +25,8 @@ class Serving {
 
     /// Opens the ports. "" or what is wrong.
     std::string open();
+    /// Whether an earlier process has left changed system parameters: VirtualController::reopen() takes them.
+    bool hasKeptParameters() { return plant_.configuration().takeKept(); }
     /// Begins to answer, and writes the addresses to standard output: one line of JSON.
     void start();
 

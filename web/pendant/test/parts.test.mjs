@@ -15,6 +15,7 @@ async function load(path) {
 
 const { tokensOf } = await load("program/rapid_tokens.ts");
 const { Recorder, sampleAt, spanOf } = await load("recording/recorder.ts");
+const { csvOf, samplesFrom } = await load("recording/recording_file.ts");
 const { eulerAngles } = await load("math/pose.ts");
 
 const kinds = (line) => tokensOf(line).filter(({ text }) => text.trim() !== "").map(({ kind, text }) => [kind, text.trim()]);
@@ -72,4 +73,27 @@ test("angles of a pose: a quarter turn about z", () => {
     const half = Math.SQRT1_2;
     const [x, y, z] = eulerAngles([0, 0, 0, half, 0, 0, half]);
     assert.ok(Math.abs(x) < 1e-9 && Math.abs(y) < 1e-9 && Math.abs(z - 90) < 1e-9);
+});
+
+const twoUnits = [{ name: "ROB_1", joints: [{}, {}] }, { name: "ROB_2", joints: [{}] }];
+
+test("a run that is saved and loaded again is the same (docs/pendant.md: files of runs)", () => {
+    const first = { joints: [1.5, -2], tcp: [1, 2, 3, 1, 0, 0, 0], flange: [4, 5, 6, 0, 1, 0, 0], speed: 12.5 };
+    const second = { joints: [90], tcp: [0, 0, 9, 1, 0, 0, 0], flange: [0, 0, 8, 1, 0, 0, 0], speed: 0 };
+    const samples = [{ t: 1, units: [first, second] }, { t: 1.004, units: [{ ...first, speed: 0 }, second] }];
+    assert.deepEqual(samplesFrom(csvOf({ samples }, twoUnits), twoUnits), samples);
+});
+
+test("a trace of rapidc run --trace can be loaded, without poses of the flange (docs/reports.md: columns)", () => {
+    const trace =
+        "time_s,unit,j1,j2,j3,j4,j5,j6,e1,x,y,z,q1,q2,q3,q4,speed_mm_s,move\n" +
+        "0.000,ROB_1,1,2,0,0,0,0,9E+09,364.5,0,594,1,0,0,0,250,7\n" +
+        "0.000,ROB_9,1,2,0,0,0,0,9E+09,0,0,0,1,0,0,0,0,0\n";
+    assert.deepEqual(samplesFrom(trace, twoUnits), [{ t: 0, units: [{ joints: [1, 2], tcp: [364.5, 0, 594, 1, 0, 0, 0], flange: [], speed: 250 }] }]);
+});
+
+test("a file that is not a run is refused with its line", () => {
+    assert.throws(() => samplesFrom("PROC main()\nENDPROC\n", twoUnits), /Line 1 names no column time_s/);
+    assert.throws(() => samplesFrom("time_s,j1,j2\n0,1,2\n1,x,3\n", twoUnits), /Line 3: 'x' is not a number for j1/);
+    assert.throws(() => samplesFrom("time_s,unit,j1\n0,ROB_7,1\n", twoUnits), /no sample of a robot/);
 });

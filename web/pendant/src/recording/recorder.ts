@@ -1,6 +1,7 @@
 import type { Model } from "../api/model";
 import type { Motion, Pose, UnitMotion } from "../api/protocol";
 
+/** A file may lack poses: they are empty then. */
 export interface UnitSample {
     joints: number[];
     tcp: Pose;
@@ -10,7 +11,7 @@ export interface UnitSample {
 
 export interface Sample {
     t: number;
-    /** by the index of the unit; those that were at rest share the object of the sample before */
+    /** by the index of the unit; those that were at rest share the object of the sample before; none where a robot has no line in a file */
     units: UnitSample[];
 }
 
@@ -19,9 +20,10 @@ export interface SignalChange {
     value: number;
 }
 
-/** What happened between two starts from main. */
+/** What happened between two starts from main, or what a file holds. */
 export interface Run {
     number: number;
+    name: string;
     samples: Sample[];
     signals: Map<string, SignalChange[]>;
 }
@@ -70,10 +72,26 @@ export class Recorder {
         this.begin();
     }
 
+    /** Adds the run of a file; the current run stays the last. */
+    add(name: string, samples: Sample[]): Run {
+        const run = this.makeRun(name);
+        run.samples = samples;
+        this.count += samples.length;
+        this.runs.splice(this.runs.length - 1, 0, run);
+        this.trim();
+        this.onRuns();
+        return run;
+    }
+
+    private makeRun(name = ""): Run {
+        const number = this.runs.reduce((most, run) => Math.max(most, run.number), 0) + 1;
+        return { number, name: name || `Run ${number}`, samples: [], signals: new Map() };
+    }
+
     private begin(): Run {
         const last = this.runs[this.runs.length - 1];
         if (last && last.samples.length === 0) return last;
-        const run: Run = { number: (last?.number ?? 0) + 1, samples: [], signals: new Map() };
+        const run = this.makeRun();
         this.runs.push(run);
         this.trim();
         this.onRuns();

@@ -3,8 +3,10 @@ import { onThemeChange } from "../shell/theme";
 import { button, select, setOptions } from "../ui/controls";
 import { h, oncePerFrame, setText } from "../ui/dom";
 import type { ViewPanel } from "../view/view_panel";
+import { attempt, notice } from "../ui/notices";
 import { Chart, type Series } from "./chart";
 import { Recorder, sampleAt, spanOf, type Run } from "./recorder";
+import { csvOf, samplesFrom } from "./recording_file";
 
 const drawEvery = 100; // ms while it records
 const jointColours = ["series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
@@ -18,6 +20,10 @@ export class RecordingPanel {
     private readonly unitChoice = select("Robot", () => this.redraw());
     private readonly signalChoice = select("Signal", () => this.redraw());
     private readonly line = h("input", { class: "slider time-line", attrs: { type: "range", min: 0, max: 1, step: "any", "aria-label": "Time" } });
+    private readonly file = h("input", {
+        attrs: { type: "file", accept: ".csv,text/csv", hidden: true, "aria-label": "File of a run" },
+        on: { change: () => attempt(() => this.load()) },
+    });
     private readonly place = h("output", { class: "clock" });
     private readonly liveButton: HTMLButtonElement;
     private readonly playButton: HTMLButtonElement;
@@ -48,12 +54,14 @@ export class RecordingPanel {
     }
 
     private layout(): HTMLElement {
+        const save = button({ icon: "save", label: "Save the run as CSV", iconOnly: true, onClick: () => this.save() });
+        const load = button({ icon: "upload", label: "Load a run or a trace from CSV", iconOnly: true, onClick: () => this.file.click() });
         const clear = button({ icon: "trash", label: "Clear the recording", iconOnly: true, onClick: () => this.recorder.clear() });
         const labelled = (text: string, control: HTMLElement): HTMLElement => h("label", { class: "inline-label" }, h("span", { text }), control);
         return h(
             "section",
             { class: "panel recording" },
-            h("div", { class: "panel-head" }, this.recordButton, labelled("Run", this.runChoice), labelled("Compare", this.compareChoice), h("span", { class: "grow" }), this.unitChoice, clear),
+            h("div", { class: "panel-head" }, this.recordButton, labelled("Run", this.runChoice), labelled("Compare", this.compareChoice), h("span", { class: "grow" }), this.unitChoice, save, load, clear, this.file),
             h("div", { class: "time-row" }, this.playButton, this.line, this.place, this.liveButton),
             h("div", { class: "charts" }, this.speed.element, this.joints.element, h("div", { class: "chart-tools" }, labelled("Signal", this.signalChoice)), this.signals.element),
         );
@@ -88,7 +96,7 @@ export class RecordingPanel {
     }
 
     private showRuns(): void {
-        const runs = this.recorder.runs.map(({ number }) => ({ value: String(number), label: `Run ${number}` })).reverse();
+        const runs = this.recorder.runs.map(({ number, name }) => ({ value: String(number), label: name })).reverse();
         const wasLast = this.cursor === null;
         setOptions(this.runChoice, runs);
         if (wasLast && runs[0]) this.runChoice.value = runs[0].value;
@@ -100,6 +108,27 @@ export class RecordingPanel {
         const run = this.run();
         if (run && run !== this.recorder.current) this.scrub(spanOf(run)[0]);
         else this.goLive();
+    }
+
+    /** Hands the chosen run to the browser as a file. */
+    private save(): void {
+        const run = this.run();
+        const units = this.model.state?.units;
+        if (!run || !units || run.samples.length === 0) return notice("warning", "The run has no samples yet");
+        const address = URL.createObjectURL(new Blob([csvOf(run, units)], { type: "text/csv" }));
+        h("a", { attrs: { href: address, download: `${run.name.replace(/[^\w.-]+/g, "_")}.csv` } }).click();
+        setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    }
+
+    /** Adds the run of the chosen file and compares the shown run with it. */
+    private async load(): Promise<void> {
+        const file = this.file.files?.[0];
+        this.file.value = "";
+        if (!file) return;
+        const run = this.recorder.add(file.name.replace(/\.csv$/i, ""), samplesFrom(await file.text(), this.model.state?.units ?? []));
+        this.compareChoice.value = String(run.number);
+        notice("info", `${file.name} loaded`, "The charts show it beside the chosen run");
+        this.redraw();
     }
 
     private setRecording(on: boolean): void {
@@ -130,7 +159,7 @@ export class RecordingPanel {
         this.pose(run, this.cursor, false);
         const other = this.compared();
         if (other && other !== run) this.pose(other, spanOf(other)[0] + this.cursor - from, true);
-        this.view.showBanner(`Recording of run ${run.number}${other && other !== run ? `, compared with run ${other.number}` : ""}`);
+        this.view.showBanner(`Recording of ${run.name}${other && other !== run ? `, compared with ${other.name}` : ""}`);
         this.redraw();
     }
 
@@ -196,7 +225,7 @@ export class RecordingPanel {
 function speedSeries(run: Run, unit: number, shift: number, dashed: boolean): Series {
     const times = Float64Array.from(run.samples, ({ t }) => t + shift);
     const values = Float64Array.from(run.samples, ({ units }) => units[unit]?.speed ?? 0);
-    return { label: `Run ${run.number}`, colour: dashed ? "series-5" : "series-1", times, values, dashed };
+    return { label: run.name, colour: dashed ? "series-5" : "series-1", times, values, dashed };
 }
 
 /** Differences of positions over time. */

@@ -70,7 +70,8 @@ export class Arm {
             const origin = this.origins[index];
             if (!group || !origin) return;
             if (body.motion === "flange") {
-                matrixOf(flange, group.matrix);
+                group.visible = flange.length > 0; // a trace does not tell where it was
+                if (group.visible) matrixOf(flange, group.matrix);
             } else {
                 group.matrix.copy(origin);
                 if (body.motion !== "fixed") group.matrix.multiply(this.motionOf(body, joints));

@@ -1,0 +1,155 @@
+"""What a controller has around robot, signals and program, and what a virtual one lacks (facts 2.3, 2.5; RWS documentation)."""
+
+import os
+import ssl
+
+from serve_testing import Serve, ServeCase, main
+
+
+class Platform(ServeCase):
+    OPTIONS = ("--no-program-start",)
+
+    def test_safety_of_rws_2(self):
+        # A7 reads four figures of the violation info as whole numbers, A10 the mode.
+        client = self.client(2)
+        violation = client.get("/ctrl/safety/violation").values("safety-violationinfo")
+        for name in ("unsynchronized", "tool-pos-violation-status", "upper-arm-violation-status", "axis-range-violation-status"):
+            self.assertEqual(violation[name], "0", name)
+        self.assertEqual(client.get("/ctrl/safety/mode").values("safetymodestatus")["safetymode"], "active")
+        startup = client.get("/ctrl/safety/config/startupstatus").values("startup-safety-config-load-satus")
+        self.assertEqual(startup["config-status-at-startup"], "SCORCH_CONFIG_LOADED_AT_STARTUP")
+
+    def test_brake_check_needs_a_drive_module(self):
+        client = self.client(2)
+        self.assertIn("status", client.get("/ctrl/safety/cbc?drivenum=1").values("cbc-status"))
+        for query in ("", "?drivenum=0", "?drivenum=9", "?drivenum=x"):
+            self.assertEqual(client.get("/ctrl/safety/cbc" + query).status, 400, query)
+
+    def test_certificate_store_holds_the_certificate_of_https(self):
+        client = self.client(2)
+        stores = [entry.values["store-name"] for entry in client.get("/ctrl/certstore").entries("ctrl-certstore-li")]
+        self.assertEqual(stores, ["controller", "system"])
+        inner = [entry.values["store-name"] for entry in client.get("/ctrl/certstore/system").entries("ctrl-certstore-li")]
+        self.assertEqual(inner, ["robapi_store", "rws_store"])
+        shown = client.get("/ctrl/certstore/system/rws_store").values("ctrl-certstore-cert")["cert-pem"]
+        seen = ssl.get_server_certificate(("127.0.0.1", self.server.port("https")))
+        self.assertEqual(shown.split(), seen.split())
+        self.assertEqual(client.get("/ctrl/certstore/controller/trust_ca_store").entries(), [])
+        self.assertEqual(client.get("/ctrl/certstore/nowhere").status, 404)
+        self.assertEqual(client.delete("/ctrl/certstore/system").status, 403)
+
+    def test_network_shows_where_clients_connect(self):
+        # RWS 1.0: ctrl-netw with addr, mask and name
+        interface = self.client(1).get("/ctrl/network").values("ctrl-netw")
+        self.assertEqual((interface["addr"], interface["mask"]), ("127.0.0.1", "255.0.0.0"))
+
+    def test_what_a_virtual_controller_does_not_support(self):
+        for client in self.both():
+            for path in ("/ctrl/compatibility/7", "/ctrl/syslog", "/ctrl/env", "/ctrl/systems", "/ctrl/compress"):
+                response = client.get(path)
+                self.assertEqual((response.status, response.code()), (404, -1073445885), path)
+            self.assertEqual(client.get("/ctrl/diagnostics").status, 400)
+        client = self.client(2)
+        self.assertEqual(client.post("/ctrl/system/info", {"path": "x", "file-type": "y"}).status, 403)
+        self.assertEqual(client.get("/uas/ldap/configuration").status, 403)
+        self.assertEqual(len(client.get("/uas/ldap").entries()), 6)
+        self.assertEqual(client.post("/rw/motionsystem/collisionavoidance/loadconfig").status, 403)
+
+    def test_energy_is_not_measured(self):
+        for client in self.both():
+            before = client.get("/rw/system/energy").values("sys-energy-state")
+            self.assertEqual((before["state"], before["accumulated-energy"]), ("-1", "0"))
+            self.assertEqual(client.act("/rw/system/energy", "reset").status, 204)
+            after = client.get("/rw/system/energy").values("sys-energy-state")
+            self.assertEqual(int(after["change-count"]), int(before["change-count"]) + 1)
+
+    def test_cameras_and_panel(self):
+        for client in self.both():
+            self.assertEqual(client.get("/rw/vision").values("number-of-cameras-li")["number-of-cameras"], "0")
+            self.assertEqual(client.get("/rw/vision/Eye").status, 404)
+        self.assertEqual(self.client(2).get("/rw/panel/enreq").values("pnl-enreq")["state"], "off")
+
+    def test_instructions_by_subject(self):
+        # A10: pallet-head has Name and Number, pallet/N the instructions with their parameters.
+        client = self.client(2)
+        heads = {entry.values["Name"]: entry.values["Number"] for entry in client.get("/rw/rapid/tasks/T_ROB1/pallet-head").entries("rap-pallet-head")}
+        found = {entry.values["Name"]: entry.values["Parameter"]
+                 for entry in client.get(f"/rw/rapid/tasks/T_ROB1/pallet/{heads['Move']}").entries("rap-pallet")}
+        self.assertTrue(found["MoveL"].startswith("\\Conc ToPoint"), found["MoveL"])
+        self.assertEqual(client.get("/rw/rapid/tasks/T_ROB1/pallet/999").status, 404)
+
+    def test_options_names_the_methods_of_a_path(self):
+        for client in self.both():
+            response = client.request("OPTIONS", "/rw/panel/opmode")
+            self.assertEqual((response.status, response.body), (204, b""))
+            self.assertEqual(set(response.header("allow").split(",")), {"GET", "POST", "OPTIONS"})
+            self.assertEqual(client.request("OPTIONS", "/rw/nowhere").status, 404)
+
+    def test_every_return_code_is_listed(self):
+        for client in self.both():
+            codes = {entry.values["code"]: entry.values["name"] for entry in client.get("/rw/retcode").entries("err-desc")}
+            self.assertEqual(codes["-1073445862"], "SYS_CTRL_E_RESOURCE_HELD")
+            self.assertEqual(codes["-1073442816"], "SYS_CTRL_E_NO_SUCH_SYMBOL")
+            self.assertEqual(codes["-1073445859"], "SYS_CTRL_E_MASTER_REJECT")
+
+    def test_virtual_time_counts_cycles(self):
+        for client in self.both():
+            slice_ = client.get("/ctrl/virtualtime/vttimeslice").values("ctrl-vttimeslice")
+            self.assertEqual(slice_["vttimeslice"], "4")
+            self.assertEqual((slice_["cycles"], slice_["missed-cycles"]), ("0", "0"))  # nothing has moved
+
+    def test_documented_forms_of_virtual_time(self):
+        client = self.client(1)  # RWS 1.0: POST without action, vtspeed= and vtstate=VT...
+        self.assertEqual(client.post("/ctrl/virtualtime/vtspeed", {"vtspeed": "200"}).status, 204)
+        self.assertEqual(client.get("/ctrl/virtualtime/vtspeed").values()["vtcurrspeed"], "200")
+        self.assertEqual(client.post("/ctrl/virtualtime/vtspeed", {"vtspeed": "100"}).status, 204)
+        self.assertEqual(client.post("/ctrl/virtualtime/vtstate", {"vtstate": "VTSTOP"}).status, 204)
+        self.assertEqual(client.get("/ctrl/virtualtime/vtstate").values()["vtcurrstate"], "stopped")
+        self.assertEqual(client.post("/ctrl/virtualtime/vtstate", {"vtstate": "VTFREERUN"}).status, 204)
+        self.assertEqual(client.post("/ctrl/virtualtime/vtstate", {"vtstate": "VTX"}).status, 400)
+
+
+class Kept(ServeCase):
+    """What outlives the process: the certificate and changed system parameters (contract 4, 9)."""
+    OPTIONS = ("--no-program-start",)
+
+    def setUp(self):
+        os.makedirs(f"{self.folder}/system", exist_ok=True)
+
+    def run_once(self, action):
+        server = Serve(self.inputs(), options=(f"--home={self.home}", f"--system-dir={self.folder}/system", "--no-program-start",
+                                               f"--certificate-dir={self.folder}/certificate"))
+        try:
+            client = server.client(2)
+            result = action(server, client)
+            client.close()
+            return result
+        finally:
+            self.assertEqual(server.stop(), 143)
+
+    def inputs(self):
+        return os.path.join(self.folder, "inputs")
+
+    def test_certificate(self):
+        def certificate(server, _):
+            return ssl.get_server_certificate(("127.0.0.1", server.port("https")))
+        self.assertEqual(self.run_once(certificate), self.run_once(certificate))
+        self.assertEqual(os.stat(f"{self.folder}/certificate/server.pem").st_mode & 0o777, 0o600)
+
+    def test_system_parameters(self):
+        def create(_, client):
+            self.assertEqual(client.post("/rw/mastership/edit/request").status, 204)
+            made = client.post("/rw/cfg/EIO/EIO_SIGNAL/instances/create-default", {"name": "kept_do"})
+            self.assertIn(made.status, (200, 201))
+            changed = client.post("/rw/cfg/EIO/EIO_SIGNAL/instances/kept_do", {"SignalType": "[DO,1]"})
+            self.assertEqual(changed.status, 204)
+        def signal(_, client):
+            return client.get("/rw/iosystem/signals/kept_do").status
+        self.run_once(create)
+        self.assertEqual(self.run_once(signal), 200)
+        os.remove(f"{self.folder}/system/SYSPAR/EIO.cfg")  # docs/serve.md: back to the input's own
+        self.assertEqual(self.run_once(signal), 404)
+
+
+if __name__ == "__main__":
+    main()
