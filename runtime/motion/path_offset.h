@@ -43,7 +43,7 @@ class PathOffset : public PathModifier {
         s_ = planned.s;
         return step;
     }
-    /// What is passed until the next moment does not count.
+    /// The way until the next moment does not count.
     void forgetPlace() { hasPlace_ = false; }
     /// The arm is on another path; `isNew`: one that begins where the arm is, not one that was stored.
     virtual void otherPath(bool isNew) = 0;

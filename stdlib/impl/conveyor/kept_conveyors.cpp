@@ -52,7 +52,7 @@ Json save(Controller& controller, const Conveyor& conveyor) {
             {"follower", followerOf(controller, conveyor)}};
 }
 
-/// As in conveyor tracking after a power failure: the robot stands, and the object has moved on without it.
+/// As in conveyor tracking after a power failure: the robot is at rest, and the object has moved without it.
 void loseFollowed(Controller& controller, const Conveyor& conveyor, MotionDriver& motion) {
     const std::string reason = "the object on " + conveyor.name() +
                                " that it followed was lost while the controller was not running";

@@ -47,7 +47,7 @@ class ServoGun {
     /// Independent of the robot's movements from now on, and moves.
     Status moveAlone(TaskCore* task, double position);
     void endIndependence();
-    /// What another process needs to continue (--state).
+    /// The part that another process needs to continue (--state).
     nlohmann::json state() const;
     /// Takes that over. A movement in progress was ended by the power failure: the instruction that waited for it raises
     /// ERR_SGUN_MOTOFF when it is executed again. Throws what the JSON library throws.

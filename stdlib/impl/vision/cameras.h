@@ -61,7 +61,7 @@ class Camera {
     /// Null: the camera has no such parameter. Those of the last image come before those of the job and of the camera.
     CameraValue* parameter(std::string_view name);
 
-    /// What another process needs to continue (--state); times from `now` on.
+    /// The part that another process needs to continue (--state); times from `now` on.
     nlohmann::json state(Time now) const;
     /// Takes that over; jobs that the file no longer has are not loaded. Throws what the JSON library throws.
     void restore(const nlohmann::json& state, Time now);
