@@ -197,6 +197,23 @@ class Lifecycle(LspCase):
         self.assertEqual(len(client.request("textDocument/references", ask)), 2 * routines * lines)
         self.assertEqual(client.stop(), 0)
 
+    def test_an_edit_overtakes_requests_that_come_to_wait_after_it(self):
+        # As above, but the edit comes at once: requests before it need not be answered when they are not reached soon.
+        routines, lines = 400, 25
+        text = "MODULE m\n  VAR num n;\n" + "".join(
+            f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
+        client, document = self.opened(text)
+        client.settle()
+        ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
+               "context": {"includeDeclaration": False}}
+        numbers = [client.start("textDocument/references", ask) for _ in range(160)]
+        client.change(document, 2, text.replace("num n;", "num n; VAR num m;"))
+        self.assertEqual(client.response(numbers[-1])["error"]["code"], -32801)
+        # Each of the others has one answer: a result or the same error.
+        codes = {client.response(number).get("error", {"code": 0})["code"] for number in numbers[:-1]}
+        self.assertLessEqual(codes, {0, -32801})
+        self.assertEqual(client.stop(), 0)
+
     def test_usage(self):
         done = subprocess.run([RAPIDC, "lsp", "-Wno-such-warning-name"], input=b"", capture_output=True, check=False)
         self.assertEqual((done.returncode, done.stdout), (3, b""))

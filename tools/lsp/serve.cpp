@@ -31,8 +31,8 @@ bool isMessage(const Message& message, const char* method) {
 }
 
 /// Messages on their way from the reader to the worker, and for each request that has no answer yet whether it was
-/// cancelled. An edit overtakes requests that have waited for an answer longer than kPatience: the client will ask again, and
-/// diagnostics of the new text need not wait for them.
+/// cancelled. An edit overtakes requests before it that wait for an answer longer than kPatience, also those that do so only later:
+/// the client will ask again, and diagnostics of the new text need not wait for them.
 class Inbox {
   public:
     void put(Message message) {
@@ -40,7 +40,7 @@ class Inbox {
         if (isRequest(message))
             open_.try_emplace(message->at("id").dump());
         else if (isMessage(message, "textDocument/didChange"))
-            overtake();
+            lastEdit_ = Clock::now();
         messages_.push_back(std::move(message));
         arrived_.notify_one();
     }
@@ -48,6 +48,20 @@ class Inbox {
         const std::lock_guard lock(mutex_);
         closed_ = true;
         arrived_.notify_one();
+    }
+    /// Cancels what an edit has overtaken. True: some requests may be due for that after kPatience.
+    bool overtake() {
+        const std::lock_guard lock(mutex_);
+        const Clock::time_point latest = Clock::now() - kPatience;
+        bool more = false;
+        for (auto& [id, request] : open_) {
+            if (request.since > lastEdit_ || request.cancel.requested()) continue;
+            if (request.since < latest)
+                request.cancel.request(rapid::query::CancelReason::Overtaken);
+            else
+                more = true;
+        }
+        return more;
     }
     void cancel(const Json& id) {
         const std::lock_guard lock(mutex_);
@@ -80,9 +94,9 @@ class Inbox {
         return true;
     }
 
-  private:
     static constexpr std::chrono::milliseconds kPatience{100};
 
+  private:
     struct OpenRequest {
         rapid::query::Cancel cancel;
         Clock::time_point since = Clock::now();
@@ -91,17 +105,12 @@ class Inbox {
     static bool isRequest(const Message& message) {
         return message && message->is_object() && message->contains("method") && message->contains("id");
     }
-    void overtake() {
-        const Clock::time_point latest = Clock::now() - kPatience;
-        for (auto& [id, request] : open_)
-            if (request.since < latest && !request.cancel.requested())
-                request.cancel.request(rapid::query::CancelReason::Overtaken);
-    }
 
     std::mutex mutex_;
     std::condition_variable arrived_;
     std::deque<Message> messages_;
     std::map<std::string, OpenRequest> open_; ///< by id
+    Clock::time_point lastEdit_ = Clock::time_point::min();
     bool closed_ = false;
 };
 
@@ -126,7 +135,9 @@ class Reader {
         std::string buffer(size_t{1} << 16, '\0');
         while (!broken_) {
             pollfd input{STDIN_FILENO, POLLIN, 0};
-            const int ready = poll(&input, 1, kWatchMilliseconds);
+            const bool looksSoon = inbox_.overtake();
+            const int ready =
+                poll(&input, 1, looksSoon ? static_cast<int>(Inbox::kPatience.count()) : kWatchMilliseconds);
             if (ready < 0 && errno != EINTR) break;
             if (ready <= 0) {
                 if (isGone(client_)) break;

@@ -21,6 +21,8 @@ class Configurations implements vscode.DebugConfigurationProvider {
             return { type: "rapidc", request: "launch", name: "Run this module", program: "${file}" };
         }
         if (config.request === "launch" && !config["program"]) config["program"] = "${file}";
+        // A stimulus answers dialogs itself.
+        config["operatorDialogs"] ??= !config["stimulus"];
         return config;
     }
 }
@@ -84,10 +86,86 @@ class RobotPosition implements vscode.Disposable {
     }
 }
 
+/** A question of the program to the operator, as the adapter describes it. */
+interface Dialog {
+    id: number;
+    instruction: string;
+    kind: "choice" | "list" | "number" | "text";
+    header: string;
+    lines: string[];
+    choices: string[];
+    hint: string;
+}
+
+/** Asks the user what the program asks the operator; a box that is closed without an answer is shown again. */
+class OperatorDialogs implements vscode.Disposable {
+    private readonly open = new Map<string, vscode.CancellationTokenSource>();
+    private readonly subscriptions = [
+        vscode.debug.onDidReceiveDebugSessionCustomEvent((event) => {
+            if (event.event !== "rapidcDialog") return;
+            if (event.body?.opened) void this.ask(event.session, event.body.opened as Dialog);
+            else this.close(`${event.session.id} ${event.body?.closed}`);
+        }),
+        vscode.debug.onDidTerminateDebugSession((session) => {
+            for (const key of [...this.open.keys()]) if (key.startsWith(`${session.id} `)) this.close(key);
+        }),
+    ];
+
+    private async ask(session: vscode.DebugSession, dialog: Dialog): Promise<void> {
+        const key = `${session.id} ${dialog.id}`;
+        const source = new vscode.CancellationTokenSource();
+        this.open.set(key, source);
+        let refusal = "";
+        while (!source.token.isCancellationRequested) {
+            const answer = await this.input(dialog, refusal, source.token);
+            if (answer === undefined) {
+                if (source.token.isCancellationRequested) break;
+                const again = await vscode.window.showInformationMessage(
+                    `The program waits for an answer: ${dialog.lines.join(" ")}`, "Answer");
+                if (again !== "Answer") break;
+                continue;
+            }
+            try {
+                await session.customRequest("rapidcAnswerDialog", { id: dialog.id, answer });
+                break;
+            } catch (problem) {
+                refusal = problem instanceof Error ? problem.message : String(problem);
+            }
+        }
+        this.close(key);
+    }
+
+    private async input(
+        dialog: Dialog, refusal: string, token: vscode.CancellationToken,
+    ): Promise<string | undefined> {
+        const title = dialog.header || dialog.instruction;
+        const text = [...dialog.lines, refusal].filter((line) => line !== "").join("\n");
+        if (dialog.choices.length === 0)
+            return vscode.window.showInputBox({ title, prompt: text || dialog.hint, ignoreFocusOut: true }, token);
+        const items = dialog.choices
+            .map((label, index) => ({ label, answer: String(index + 1) }))
+            .filter((item) => item.label !== "");
+        const picked = await vscode.window.showQuickPick(items, { title, placeHolder: text, ignoreFocusOut: true }, token);
+        return picked?.answer;
+    }
+
+    private close(key: string): void {
+        this.open.get(key)?.cancel();
+        this.open.get(key)?.dispose();
+        this.open.delete(key);
+    }
+
+    dispose(): void {
+        for (const key of [...this.open.keys()]) this.close(key);
+        this.subscriptions.forEach((one) => one.dispose());
+    }
+}
+
 export function registerDebugger(context: vscode.ExtensionContext): void {
     const configurations = new Configurations();
     context.subscriptions.push(
         new RobotPosition(),
+        new OperatorDialogs(),
         vscode.commands.registerCommand("rapidc.runRoutine", runRoutine),
         vscode.debug.registerDebugConfigurationProvider("rapidc", configurations),
         vscode.debug.registerDebugConfigurationProvider(

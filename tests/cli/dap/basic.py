@@ -296,6 +296,37 @@ def test_operator_dialog(a):
     equal((asked[0]["category"], asked[0]["line"]), ("important", line_of("asks.modx", "! asks")))
 
 
+def test_operator_dialog_answered_by_the_client(a):
+    """docs/debugging.md: with operatorDialogs an event rapidcDialog asks, and the request rapidcAnswerDialog answers."""
+    a.start("asks.modx", operatorDialogs=True)
+    asked = a.event("rapidcDialog")["opened"]
+    equal((asked["instruction"], asked["kind"], asked["threadId"]), ("TPReadNum", "number", 1))
+    holds("How many?" in asked["lines"], str(asked))
+    a.refused("rapidcAnswerDialog", id=asked["id"], answer="many")
+    a.refused("rapidcAnswerDialog", id=asked["id"] + 1, answer="7")
+    a.refused("rapidcAnswerDialog", id=asked["id"])
+    a.ask("rapidcAnswerDialog", id=asked["id"], answer="7")
+    equal(a.event("rapidcDialog")["closed"], asked["id"])
+    a.refused("rapidcAnswerDialog", id=asked["id"], answer="8")
+    equal(a.run_out(), ["answer 7"])
+
+
+def test_kinds_of_dialogs(a):
+    """Keys are answered by number or by their text; the time of \\MaxTime passes with the clock while a dialog is open."""
+    a.start("dialogs.modx", operatorDialogs=True)
+    asked = a.event("rapidcDialog")["opened"]
+    equal((asked["kind"], asked["choices"][:2]), ("choice", ["left", "right"]))
+    a.refused("rapidcAnswerDialog", id=asked["id"], answer="middle")
+    a.ask("rapidcAnswerDialog", id=asked["id"], answer="right")
+    asked = a.event("rapidcDialog", closed=None)["opened"]
+    equal(asked["kind"], "text")
+    a.refused("rapidcAnswerDialog", id=asked["id"], answer="x" * 81)
+    a.ask("rapidcAnswerDialog", id=asked["id"], answer="12 apples")
+    asked = a.event("rapidcDialog", closed=None)["opened"]
+    equal(a.event("rapidcDialog", closed=asked["id"]), {"closed": asked["id"]})
+    equal(a.run_out(), ["key 2", "text 12 apples", "too late"])
+
+
 def test_requests_that_make_no_sense(a):
     """Contract 15: never silent."""
     a.initialize()

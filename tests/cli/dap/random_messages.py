@@ -13,14 +13,14 @@ COMMANDS = ["initialize", "launch", "attach", "configurationDone", "threads", "s
             "setExpression", "evaluate", "continue", "next", "stepIn", "stepOut", "stepBack", "reverseContinue", "pause",
             "goto", "gotoTargets", "setBreakpoints", "setFunctionBreakpoints", "setDataBreakpoints", "dataBreakpointInfo",
             "setExceptionBreakpoints", "breakpointLocations", "exceptionInfo", "completions", "loadedSources", "modules",
-            "source", "restart", "cancel", "terminate", "nonsense", ""]
+            "source", "restart", "restartFrame", "rapidcAnswerDialog", "cancel", "terminate", "nonsense", ""]
 TEXTS = ["", "n", "total + 1", "twice(3)", "box", "counts{2}", "TPWrite \"x\";", "1 / 0", "\"", "{", "ENDPROC", "é\u0000\n",
          "x" * 3000, "total := total + 1;", "grid{1,*}", "((((", "T_ROB1", "unhandled", "all", "report", "watched", "total",
          "%" * 50, "!", "LIMIT := 1;", "here := [1,2,3];", "RETURN;", "EXIT;", "Stop;", "WaitTime 1;"]
 NAMES = ["threadId", "frameId", "variablesReference", "expression", "context", "name", "value", "line", "column", "text",
          "targetId", "filter", "start", "count", "startFrame", "levels", "granularity", "singleThread", "sourceReference",
          "dataId", "filters", "filterOptions", "breakpoints", "lines", "source", "condition", "hitCondition", "logMessage",
-         "endLine", "accessType", "startModule", "moduleCount"]
+         "id", "answer", "endLine", "accessType", "startModule", "moduleCount"]
 
 
 def scalar(dice):

@@ -211,6 +211,44 @@ def test_breakpoint_in_a_module_to_be_loaded(a):
     equal(a.run_out(), ["added"])
 
 
+def test_loaded_source_events(a):
+    """Protocol, event loadedSource: a source is new or removed; here by Load and UnLoad."""
+    added = path("home/added.modx")
+    a.start("loads.modx", [line_of("loads.modx", "addedProc")], home=os.path.join(HERE, "home"))
+    a.stopped("breakpoint")
+    equal(a.event("loadedSource"), {"reason": "new", "source": {"name": "added.modx", "path": added}})
+    a.go()
+    equal(a.run_out(), ["added"])
+    changes = [m["body"] for m in a.seen if m.get("event") == "loadedSource"]
+    equal([(c["reason"], c["source"]["path"]) for c in changes], [("new", added), ("removed", added)])
+
+
+def test_restart_frame(a):
+    """Protocol, request restartFrame: the response, then a stop with reason restart. Manual 1.2.2: the program pointer may be moved
+    within the routine in progress, whose data keep their values, or to a procedure without parameters."""
+    inside = line_of("frames.modx", "! inside")
+    a.start("frames.modx", [inside])
+    holds(a.seen[0]["body"]["supportsRestartFrame"], "capability")
+    a.stopped("breakpoint", inside)
+    frames = a.frames()
+    equal([f["name"] for f in frames], ["inner", "middle", "main"])
+    equal(a.value("count"), "1")
+    a.refused("restartFrame", frameId=frames[1]["id"])
+    a.refused("restartFrame", frameId=99999)
+    a.ask("restartFrame", frameId=frames[0]["id"])
+    a.stopped("restart", line_of("frames.modx", "! begins"), "inner")
+    equal(len(a.frames()), 3)
+    a.go()
+    a.stopped("breakpoint", inside)
+    equal(a.value("count"), "2")
+    a.set_lines("frames.modx", [])
+    a.ask("restartFrame", frameId=a.frames()[2]["id"])
+    a.stopped("restart", line_of("frames.modx", "! main begins"), "main")
+    equal(len(a.frames()), 1)
+    a.go()
+    equal(a.run_out(), ["main", "main", "count 3"])
+
+
 def test_breakpoint_locations(a):
     a.start("part.modx", stopOnEntry=True)
     a.stopped("entry")

@@ -13,6 +13,14 @@
 
 namespace rapidc::dap {
 
+/// A routine in progress in the call stack of a task.
+struct FramePlace {
+    rt::Task* task = nullptr;
+    rt::DebugFrame frame;
+    std::size_t index = 0; ///< innermost 0
+    std::size_t count = 0; ///< of all in the stack
+};
+
 struct Context {
     Client& client;
     rt::Inbox& inbox;
@@ -23,6 +31,8 @@ struct Context {
     rt::Task* stopped = nullptr;          ///< the task whose stop the client knows of
     /// The expression of a child of a variablesReference; throws a Refusal.
     std::function<std::string(int64_t reference, const std::string& name)> expressionOf = {};
+    /// The routine in progress that a frameId means, and its place in the call stack, innermost 0; throws a Refusal.
+    std::function<FramePlace(int64_t frame)> frameOf = {};
 
     /// All of these throw a Refusal when the session is in another state.
     rt::Controller& controller() const;

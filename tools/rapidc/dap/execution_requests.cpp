@@ -1,6 +1,7 @@
 #include "tools/rapidc/dap/execution_requests.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/sched/error_search.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -21,6 +22,13 @@ Granularity granularityOf(const Arguments& arguments) {
     throw Refusal(fmt::format("there is no granularity '{}'", text));
 }
 
+/// Null: the program pointer can be at none of its statements.
+const rt::StmtDesc* firstStatement(const rt::RoutineDesc& routine) {
+    for (uint32_t s = 0; s < routine.statementCount; ++s)
+        if (routine.statements[s].canStart != 0) return &routine.statements[s];
+    return nullptr;
+}
+
 } // namespace
 
 void ExecutionRequests::addTo(Handlers& handlers) {
@@ -39,6 +47,7 @@ void ExecutionRequests::addTo(Handlers& handlers) {
     add("pause", &ExecutionRequests::pause);
     add("gotoTargets", &ExecutionRequests::gotoTargets);
     add("goto", &ExecutionRequests::goTo);
+    add("restartFrame", &ExecutionRequests::restartFrame);
 }
 
 rt::Task& ExecutionRequests::standing(const Arguments& arguments) {
@@ -173,8 +182,7 @@ Json ExecutionRequests::goTo(const Arguments& arguments) {
             context_.controller().findRoutine(target.routine, target.module, task);
         uint32_t first = 0;
         if (routine != nullptr)
-            for (uint32_t s = 0; s < routine->desc->statementCount && first == 0; ++s)
-                if (routine->desc->statements[s].canStart != 0) first = routine->desc->statements[s].line;
+            if (const rt::StmtDesc* statement = firstStatement(*routine->desc)) first = statement->line;
         if (first != target.line)
             return fmt::format(
                 "line {} is in routine {}: the program pointer can be moved within the routine in "
@@ -182,6 +190,36 @@ Json ExecutionRequests::goTo(const Arguments& arguments) {
                 target.line, target.routine);
         return debugger.pointerToRoutine(task, target.module + ":" + target.routine);
     });
+    return nullptr;
+}
+
+/// As the program pointer may be moved (manual 1.2.2): to the beginning of the routine in progress, whose data keep their values; or to
+/// the routine that the others were called from, which ends them.
+Json ExecutionRequests::restartFrame(const Arguments& arguments) {
+    const int64_t id = arguments.number("frameId");
+    context_.requireStop();
+    const FramePlace place = context_.frameOf(id);
+    rt::Debugger& debugger = context_.debugger();
+    const rt::Frame* at = place.frame.frame;
+    if (at == nullptr || at->routine == nullptr) throw Refusal("this frame is not in progress");
+    const rt::RoutineDesc& routine = *at->routine;
+    if (place.index > 0 && place.index + 1 < place.count)
+        throw Refusal(fmt::format(
+            "routine {} waits for a routine that it has called, and others wait for it: only the innermost "
+            "and the outermost routine can be restarted",
+            routine.name));
+    if (place.index == 0 && rt::inErrorHandler(*at))
+        throw Refusal("the program pointer cannot be moved out of an error handler");
+    const rt::StmtDesc* first = firstStatement(routine);
+    if (first == nullptr) throw Refusal(fmt::format("routine {} has no instruction", routine.name));
+    order([&]() -> std::string {
+        if (place.index > 0)
+            return debugger.pointerToRoutine(*place.task, fmt::format("{}:{}", routine.module, routine.name));
+        const std::string problem = debugger.pointerToLine(*place.task, first->line);
+        if (problem.empty()) debugger.noteStop(*place.task, rt::StopReason::Pointer);
+        return problem;
+    });
+    restarting_ = true;
     return nullptr;
 }
 

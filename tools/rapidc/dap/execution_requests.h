@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 
 namespace rapidc::dap {
 
@@ -15,6 +16,8 @@ class ExecutionRequests {
         : context_(context), onContinue_(std::move(onContinue)) {}
     void addTo(Handlers& handlers);
     void forgetTargets() { targets_.clear(); }
+    /// Whether the stop that is due now is that of a frame that was restarted; the next one is not.
+    bool takeRestart() { return std::exchange(restarting_, false); }
 
   private:
     struct Target {
@@ -33,6 +36,7 @@ class ExecutionRequests {
     Json pause(const Arguments& arguments);
     Json gotoTargets(const Arguments& arguments);
     Json goTo(const Arguments& arguments);
+    Json restartFrame(const Arguments& arguments);
 
     /// The task of the request, which must stand still.
     rt::Task& standing(const Arguments& arguments);
@@ -43,6 +47,7 @@ class ExecutionRequests {
     std::function<void()> onContinue_;
     std::map<int64_t, Target> targets_;
     int64_t lastTarget_ = 0;
+    bool restarting_ = false;
 };
 
 } // namespace rapidc::dap

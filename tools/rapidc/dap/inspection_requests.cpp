@@ -39,6 +39,7 @@ InspectionRequests::InspectionRequests(Context& context) : context_(context), va
     context.expressionOf = [this](int64_t reference, const std::string& name) {
         return variables_.expressionOf(reference, name);
     };
+    context.frameOf = [this](int64_t frame) { return framePlace(frame); };
 }
 
 void InspectionRequests::addTo(Handlers& handlers) {
@@ -133,11 +134,16 @@ Site InspectionRequests::site(const Arguments& arguments) {
         if (task == nullptr) task = context_.controller().tasks().front().get();
         return {task, nullptr};
     }
-    const int64_t id = arguments.number("frameId");
-    for (auto& [task, list] : frames_) {
+    const FramePlace place = framePlace(arguments.number("frameId"));
+    return {place.task, place.frame.frame};
+}
+
+FramePlace InspectionRequests::framePlace(int64_t id) const {
+    for (const auto& [task, list] : frames_) {
         const int64_t place = id - list.first;
-        if (place >= 0 && place < static_cast<int64_t>(list.frames.size()))
-            return {const_cast<rt::Task*>(task), list.frames[static_cast<std::size_t>(place)].frame};
+        if (place < 0 || place >= static_cast<int64_t>(list.frames.size())) continue;
+        const auto index = static_cast<std::size_t>(place);
+        return {const_cast<rt::Task*>(task), list.frames[index], index, list.frames.size()};
     }
     throw Refusal(fmt::format("there is no frame {}; frames are valid until the program continues", id));
 }

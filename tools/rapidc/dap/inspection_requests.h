@@ -53,6 +53,7 @@ class InspectionRequests {
     std::optional<Json> evaluate(const Request& request, const Arguments& arguments);
 
     FrameList& framesOf(rt::Task& task);
+    FramePlace framePlace(int64_t id) const;
     Json describe(const rt::DebugFrame& frame, int64_t id) const;
     /// The frame of the request's frameId, else that of the task that stopped.
     Site site(const Arguments& arguments);

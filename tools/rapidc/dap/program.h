@@ -18,6 +18,7 @@ struct LaunchArguments {
     bool stopOnEntry = false;
     bool noDebug = false;
     bool realtime = false;
+    bool operatorDialogs = false; ///< the client answers them
     std::vector<std::string> robots, config, tasks;
     std::string stimulus, home;
 

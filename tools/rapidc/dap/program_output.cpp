@@ -3,10 +3,12 @@
 #include <cerrno>
 #include <fmt/format.h>
 #include <system_error>
+#include <utility>
 
 namespace rapidc::dap {
 
-ProgramOutput::ProgramOutput(Context& context) : context_(context), nowhere_(std::fopen("/dev/null", "we")) {
+ProgramOutput::ProgramOutput(Context& context, std::function<void()> onDialog)
+    : context_(context), onDialog_(std::move(onDialog)), nowhere_(std::fopen("/dev/null", "we")) {
     cookie_io_functions_t functions{};
     functions.write = writeDialog;
     dialogs_ = ::fopencookie(this, "w", functions);
@@ -40,6 +42,7 @@ void ProgramOutput::takeDialog(std::string_view text) {
                                task != nullptr ? context_.place(task->place()) : Json::object());
         line_.erase(0, end + 1);
     }
+    onDialog_();
 }
 
 void ProgramOutput::show(const rt::Event& event) {

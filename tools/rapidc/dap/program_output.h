@@ -13,7 +13,8 @@ namespace rapidc::dap {
 class ProgramOutput {
   public:
     /// From now on. The controller of the context must outlive this.
-    explicit ProgramOutput(Context& context);
+    /// `onDialog` is called when a part of a dialog has been shown.
+    ProgramOutput(Context& context, std::function<void()> onDialog);
     ~ProgramOutput();
     ProgramOutput(const ProgramOutput&) = delete;
     ProgramOutput& operator=(const ProgramOutput&) = delete;
@@ -25,6 +26,7 @@ class ProgramOutput {
     static ssize_t writeDialog(void* output, const char* bytes, std::size_t size);
 
     Context& context_;
+    std::function<void()> onDialog_;
     std::FILE* nowhere_;
     std::FILE* dialogs_;
     std::string line_; ///< of a dialog, not complete

@@ -39,11 +39,12 @@ Session::Session(protocol::Channel& channel, rt::Inbox& inbox, StrayOutput& stra
                                                                     execution_.forgetTargets();
                                                                     context_.stopped = nullptr;
                                                                 }),
-      sources_(context_) {
+      sources_(context_), dialogs_(context_) {
     breakpoints_.addTo(handlers_);
     inspection_.addTo(handlers_);
     execution_.addTo(handlers_);
     sources_.addTo(handlers_);
+    dialogs_.addTo(handlers_);
     const auto add = [this](const char* name, Json (Session::*handler)(const Arguments&)) {
         handlers_[name] = [this, handler](const Request&, const Arguments& arguments) {
             return std::optional<Json>((this->*handler)(arguments));
@@ -165,6 +166,7 @@ Json Session::capabilities() {
                              "supportsCompletionsRequest",
                              "supportsModulesRequest",
                              "supportsRestartRequest",
+                             "supportsRestartFrame",
                              "supportsExceptionOptions",
                              "supportsExceptionInfoRequest",
                              "supportTerminateDebuggee",
@@ -228,8 +230,13 @@ void Session::makeProgram(const LaunchArguments& arguments) {
     }
     progress(false);
     rt::Controller& controller = context_.controller();
-    output_ = std::make_unique<ProgramOutput>(context_);
-    controller.onSleep([this] { showStray(); });
+    output_ = std::make_unique<ProgramOutput>(context_, [this] { dialogs_.look(); });
+    dialogs_.begin(arguments.operatorDialogs);
+    sources_.programMade();
+    controller.onSleep([this] {
+        showStray();
+        if (sources_.hasOtherCount()) sources_.look();
+    });
     if (!arguments.noDebug) {
         context_.evaluator = std::make_unique<Evaluator>(context_.program->compilation(), controller);
         controller.debugger().setClient(this);
@@ -321,6 +328,8 @@ void Session::runProgram() {
         take(message);
     const int status = static_cast<int>(context_.controller().run());
     context_.running = false;
+    sources_.look();
+    dialogs_.look();
     inspection_.refuseWaiting();
     inspection_.forget();
     showStray();
@@ -333,6 +342,7 @@ void Session::runProgram() {
 void Session::dropProgram() {
     context_.stopped = nullptr;
     context_.evaluator.reset();
+    dialogs_.end();
     output_.reset();
     context_.program.reset();
 }
@@ -347,7 +357,7 @@ bool Session::stopsAtHandledError(const rt::Task&, int number) {
     return breakpoints_.stopsAtHandledError(number);
 }
 
-std::string Session::reasonOf(rt::StopReason reason) const {
+std::string Session::reasonOf(rt::StopReason reason) {
     switch (reason) {
     case rt::StopReason::Entry: return "entry";
     case rt::StopReason::Breakpoint: return "breakpoint";
@@ -377,7 +387,9 @@ void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason rea
     execution_.forgetTargets();
     context_.stopped = &task;
     showStray();
-    Json body{{"reason", reasonOf(reason)},
+    sources_.look();
+    const bool restarted = execution_.takeRestart() && reason == rt::StopReason::Pointer;
+    Json body{{"reason", restarted ? "restart" : reasonOf(reason)},
               {"description", descriptionOf(reason)},
               {"threadId", Context::threadOf(task)},
               {"allThreadsStopped", true}};

@@ -6,6 +6,7 @@
 #include "tools/rapidc/dap/context.h"
 #include "tools/rapidc/dap/execution_requests.h"
 #include "tools/rapidc/dap/inspection_requests.h"
+#include "tools/rapidc/dap/operator_dialogs.h"
 #include "tools/rapidc/dap/program_output.h"
 #include "tools/rapidc/dap/source_requests.h"
 #include "tools/rapidc/dap/stray_output.h"
@@ -52,7 +53,7 @@ class Session final : public rt::DebugClient {
     void carryOutRestart();
     void showStray();
     void progress(bool begins);
-    std::string reasonOf(rt::StopReason reason) const;
+    static std::string reasonOf(rt::StopReason reason);
     void showRobot(rt::Task& task);
 
     Client client_;
@@ -63,6 +64,7 @@ class Session final : public rt::DebugClient {
     InspectionRequests inspection_;
     ExecutionRequests execution_;
     SourceRequests sources_;
+    OperatorDialogs dialogs_;
     std::unique_ptr<ProgramOutput> output_;
     std::optional<LaunchArguments> launched_; ///< what a restart launches again
     struct Restart {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
+#include <utility>
 
 namespace rapidc::dap {
 
@@ -53,12 +53,40 @@ Json SourceRequests::source(const Arguments& arguments) {
     return {{"content", std::string(file.text())}, {"mimeType", "text/x-rapid"}};
 }
 
-Json SourceRequests::loadedSources(const Arguments&) {
+std::set<std::string> SourceRequests::files() const {
     std::set<std::string> files;
     for (const rt::LoadedModule& module : context_.controller().tables().modules())
         if (!module.file.empty()) files.insert(module.file);
+    return files;
+}
+
+void SourceRequests::programMade() {
+    known_ = files();
+    count_ = context_.controller().tables().modules().size();
+}
+
+bool SourceRequests::hasOtherCount() const {
+    return context_.controller().tables().modules().size() != count_;
+}
+
+void SourceRequests::look() {
+    count_ = context_.controller().tables().modules().size();
+    std::set<std::string> now = files();
+    const auto send = [this](const char* reason, const std::set<std::string>& list,
+                             const std::set<std::string>& but) {
+        for (const std::string& file : list)
+            if (!but.contains(file))
+                context_.client.event("loadedSource",
+                                      {{"reason", reason}, {"source", context_.source(file)}});
+    };
+    send("new", now, known_);
+    send("removed", known_, now);
+    known_ = std::move(now);
+}
+
+Json SourceRequests::loadedSources(const Arguments&) {
     Json list = Json::array();
-    for (const std::string& file : files)
+    for (const std::string& file : files())
         list.push_back(context_.source(file));
     return {{"sources", std::move(list)}};
 }
