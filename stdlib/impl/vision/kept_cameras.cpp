@@ -53,8 +53,9 @@ CameraParameters parametersFrom(const Json& json) {
 
 Json jsonOf(const CameraResult& result) {
     const CameraPart& part = result.part;
-    return {{"name", part.name},   {"frame", jsonOf(part.frame)}, {"values", part.values},
-            {"texts", part.texts}, {"type", part.type},           {"scene", result.scene}};
+    return {{"name", part.name},     {"frame", rt::jsonOf(part.frame)},
+            {"values", part.values}, {"texts", part.texts},
+            {"type", part.type},     {"scene", result.scene}};
 }
 
 CameraResult resultFrom(const Json& json) {
