@@ -342,6 +342,8 @@ class Motion(ServeCase):
             for wrong in ({"pos-x": "far"}, {"orient-q1": "2"}):
                 reply = client.act("/rw/motionsystem", "positiontarget", {**target, **wrong}, action2="position-target")
                 self.assertEqual(reply.status, 400, wrong)
+            # refused while the arm moves
+            self.eventually(lambda: self.teleport(client, [0, 0, 0, 0, 30, 0]).status == 204)  # pylint: disable=cell-var-from-loop
             self.jog(client, [1000, 0, 0, 0, 0, 0], jogmode="GoToPos")
             begun = self.at_rest(client)  # not repeated: it stops on the way
             self.assertLess(begun[0], 19)
