@@ -7,6 +7,7 @@
 #include <llvm/ADT/SmallVector.h>
 #include <llvm/ExecutionEngine/Orc/IndirectionUtils.h>
 #include <llvm/ExecutionEngine/Orc/OrcABISupport.h>
+#include <llvm/Support/SmallVectorMemoryBuffer.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -213,8 +214,7 @@ class LazyProgram : public JitProgram {
         llvm::SmallVector<char, 0> bytes;
         if (!compiled || !generate(*compiled, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error))
             return nullptr;
-        return llvm::MemoryBuffer::getMemBufferCopy(llvm::StringRef(bytes.data(), bytes.size()),
-                                                    module_.name);
+        return std::make_unique<llvm::SmallVectorMemoryBuffer>(std::move(bytes), module_.name, false);
     }
 
     static constexpr int kInternalError = 2;

@@ -100,7 +100,7 @@ RESTRICTED = [
       "runtime/host/chain_image.cpp", "runtime/host/path_image.cpp", "runtime/host/unit_messages.cpp",
       "runtime/report/page_data.cpp",
       "stdlib/impl/flow/errors.cpp", "stdlib/impl/io/kept_cyclic_bools.cpp", "stdlib/impl/motion/kept_settings.cpp", "stdlib/impl/motion/kept_triggers.cpp",
-      "stdlib/impl/conveyor/kept_conveyors.cpp", "stdlib/impl/motion/kept_world_zones.cpp", "stdlib/impl/servo_guns/kept_guns.cpp",
+      "stdlib/impl/conveyor/kept_conveyors.cpp", "stdlib/impl/motion/kept_world_zones.cpp", "stdlib/impl/motion/soft_servo.cpp", "stdlib/impl/servo_guns/kept_guns.cpp",
       "stdlib/impl/spot/spot_gun.cpp", "stdlib/impl/vision/kept_cameras.cpp",
       "stdlib/impl/queues/kept_messages.cpp", "stdlib/impl/time/clocks.cpp", "stdlib/impl/vision/camera_file.cpp", "stdlib/gen/emit_reference.cpp",
       "tools/lsp", "tools/rapidc/missing_report.cpp", "tools/program/program_sources.cpp", "tools/rapidc/robots_command.cpp",

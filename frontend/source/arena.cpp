@@ -1,5 +1,7 @@
 #include "frontend/source/arena.h"
 
+#include "frontend/source/free_memory.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
@@ -27,6 +29,7 @@ constexpr size_t kSmallest = size_t{1} << 11;
 constexpr size_t kLargest = size_t{1} << 14; ///< but for what needs more
 [[maybe_unused]] constexpr size_t kHugePage =
     size_t{1} << 21; ///< alignment and granule of what is taken from the system
+[[maybe_unused]] constexpr size_t kPage = size_t{1} << 12;
 [[maybe_unused]] constexpr size_t kChunk = size_t{1} << 25;
 
 constexpr size_t roundUp(size_t size, size_t granule) {
@@ -44,7 +47,7 @@ void giveBlock(char* data, size_t) {
 
 #else
 
-/// Free memory by address; neighbours are joined. Memory from the system stays with the process.
+/// Free memory by address; neighbours are joined. Memory from the system stays with the process until `release`.
 class BlockPool {
   public:
     char* take(size_t size) {
@@ -75,6 +78,17 @@ class BlockPool {
             free_.erase(next);
         }
         free_.emplace(data, size);
+    }
+
+    void release() {
+#if defined(__linux__)
+        const std::lock_guard lock(mutex_);
+        for (const auto& [data, size] : free_) {
+            const auto begin = reinterpret_cast<uintptr_t>(data);
+            const uintptr_t first = roundUp(begin, kPage), last = (begin + size) / kPage * kPage;
+            if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+        }
+#endif
     }
 
   private:
@@ -130,6 +144,12 @@ void Arena::clear() {
         giveBlock(block.data, block.size);
     blocks_.clear();
     next_ = end_ = total_ = 0;
+}
+
+void releaseFreeMemory() {
+#if !defined(RAPID_PLAIN_BLOCKS)
+    pool().release();
+#endif
 }
 
 } // namespace rapid

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ir/core/inst_list.h"
 #include "ir/core/operand_list.h"
 
 namespace ir {
@@ -135,13 +136,16 @@ struct Inst {
     OperandList operands;   ///< values
     uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
     BlockId target[2] = {kNone, kNone};
-    SwitchCases cases;   ///< Switch
-    double number = 0;   ///< Const: F32, F64
-    int64_t integer = 0; ///< Const: Bool, Ptr, and integers, sign-extended
+    SwitchCases cases; ///< Switch
+    union {
+        double number;       ///< Const: F32, F64
+        int64_t integer = 0; ///< Const: Bool, Ptr, and integers, sign-extended
+    };
     StmtId stmt = kNone; ///< statement it belongs to
     /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
     int32_t extra = 0;
 };
+static_assert(sizeof(Inst) <= 64); // programs have millions
 
 // ---- Statements ------------------------------------------------------------------------------------------
 
@@ -212,7 +216,7 @@ struct Routine {
     TypeId result = kVoid; ///< scalar: returned beside the status; Str/Record/Array: through a hidden pointer
     std::vector<Param> params;
     std::vector<Local> locals;
-    std::vector<Inst> insts;
+    PieceList<Inst> insts;
     std::vector<Block> blocks; ///< block 0 is the entry
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;

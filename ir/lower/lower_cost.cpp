@@ -62,7 +62,7 @@ void RoutineLowering::chargeRounds(const Counting& counting, uint32_t cost) {
 
 /// Nothing lowered since then calls a routine, may wait, or is charged for rounds of its own.
 bool RoutineLowering::isFreeOfCalls(size_t firstInst) const {
-    return std::none_of(routine_.insts.begin() + static_cast<std::ptrdiff_t>(firstInst), routine_.insts.end(),
+    return std::none_of(std::as_const(routine_.insts).from(firstInst), std::as_const(routine_.insts).end(),
                         [this](const ir::Inst& inst) {
                             if (inst.op == Op::CallNative)
                                 return program_.module().natives[inst.index].nativeClass ==

@@ -178,7 +178,8 @@ class Folder {
     bool isConst(ValueId id) const { return routine_.insts[id].op == Op::Const; }
     Constant valueOf(ValueId id) const {
         const Inst& inst = routine_.insts[id];
-        return {inst.type, inst.number, inst.integer};
+        if (isFloat(inst.type)) return {inst.type, inst.number, 0};
+        return {inst.type, 0, inst.integer};
     }
 
     bool visit(ValueId id) {
@@ -226,8 +227,10 @@ class Folder {
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();
-        inst.number = out.number;
-        inst.integer = out.integer;
+        if (isFloat(type))
+            inst.number = out.number;
+        else
+            inst.integer = out.integer;
         inst.extra = 0;
         inst.index = kNone;
         return true;

@@ -44,6 +44,18 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
     return names;
 }
 
+/// The command of rapidc with an option that executables lack, because it concerns compiling or needs the compiler; "" if none.
+std::string commandForExecutable(const std::string& option) {
+    static constexpr std::pair<const char*, const char*> kOptions[] = {
+        {"--task", "build"},     {"--assume-signals", "build"}, {"--no-optimise", "build"},
+        {"--stepping", "build"}, {"--strip", "build"},          {"-W", "build"},
+        {"--step", "run"},       {"--http-port", "serve"},
+    };
+    for (const auto& [name, command] : kOptions)
+        if (option == name) return fmt::format("'rapidc {}'", command);
+    return {};
+}
+
 /// "'rapidc run' and 'rapidc build'": where an option exists that this command does not have; "" if nowhere.
 std::string placesOf(const std::string& option, const CLI::App& app, const CLI::App& command) {
     std::vector<std::string> places;
@@ -51,11 +63,10 @@ std::string placesOf(const std::string& option, const CLI::App& app, const CLI::
         if (other != &command && !other->get_group().empty() && other->get_option_no_throw(option) != nullptr)
             places.push_back(fmt::format("'rapidc {}'", other->get_name()));
     RunOptions ignored;
-    CLI::App executable, run;
+    CLI::App executable;
     addRunOptions(Command(executable), ignored, false);
-    addRunOptions(Command(run), ignored, true);
-    const bool isExecutable = app.get_subcommands([](const CLI::App*) { return true; }).empty();
-    if (isExecutable && run.get_option_no_throw(option) != nullptr) return "'rapidc build'";
+    if (app.get_subcommands([](const CLI::App*) { return true; }).empty())
+        return commandForExecutable(option);
     if (places.empty()) return {};
     if (executable.get_option_no_throw(option) != nullptr)
         places.emplace_back("the executables of 'rapidc build'");

@@ -78,6 +78,27 @@ bool signalTypeOf(const std::string& kind, SignalType& type) {
     return false;
 }
 
+bool sameAttribute(const CfgAttribute& a, const CfgAttribute& b) {
+    return sameName(a.name, b.name) && a.values == b.values;
+}
+
+bool sameInstance(const CfgInstance& a, const CfgInstance& b) {
+    return std::ranges::equal(a.attributes, b.attributes, sameAttribute);
+}
+
+bool sameSection(const CfgSection& a, const CfgSection& b) {
+    return a.type == b.type && std::ranges::equal(a.instances, b.instances, sameInstance);
+}
+
+/// A file that comes twice, say built in and named again, counts once: its event routines would be executed twice.
+void addOnce(std::vector<CfgFile>& files, CfgFile file) {
+    const auto same = [&](const CfgFile& other) {
+        return other.domain == file.domain && std::ranges::equal(other.sections, file.sections, sameSection);
+    };
+    if (file.sections.empty() || std::none_of(files.begin(), files.end(), same))
+        files.push_back(std::move(file));
+}
+
 } // namespace
 
 ExitStatus Controller::prepare(const ProgramDesc& program) {
@@ -101,11 +122,10 @@ ExitStatus Controller::prepare(const ProgramDesc& program) {
 
 ExitStatus Controller::readConfiguration(const ProgramDesc& program) {
     std::vector<CfgProblem> problems;
-    for (uint32_t i = 0; i < program.configCount; ++i) {
-        configuration_.push_back(parseCfg(program.configTexts[i], program.configNames[i], problems));
-    }
+    for (uint32_t i = 0; i < program.configCount; ++i)
+        addOnce(configuration_, parseCfg(program.configTexts[i], program.configNames[i], problems));
     for (const std::string& path : options_.configFiles)
-        configuration_.push_back(readCfg(path, problems));
+        addOnce(configuration_, readCfg(path, problems));
     for (const CfgFile& file : configuration_)
         io_.configure(file, problems);
     io_.finishConfiguration(problems);

@@ -26,7 +26,7 @@ struct JogOrder {
     /// How far a share of 1 moves: mm of TCP, degrees of turning, degrees or mm of an axis. None: until stop(), or for `holdTime`
     /// unless the order is repeated.
     std::optional<double> increment;
-    /// Where an increment ends. It then lasts, like other movements, only as long as the order is repeated: the same goal continues it.
+    /// The posture at the end of an increment, which then lasts, like other movements, only as long as the order is repeated: the same goal continues it.
     std::optional<motion::JointTarget> goal;
     Time holdTime = 300 * kMillisecond;
 

@@ -10,7 +10,7 @@ struct MechanicalUnit;
 
 /// "" or why the unit cannot be activated or deactivated, for people.
 std::string refusalOfActivation(const Controller& controller, const MechanicalUnit& unit, bool active);
-/// Activates or deactivates it at once. refusalOfActivation() allows it, and its group stands still.
+/// Activates or deactivates it at once. refusalOfActivation() allows it, and its group is at rest.
 void activateUnit(Controller& controller, MechanicalUnit& unit, bool active);
 
 } // namespace rt

@@ -230,7 +230,11 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
     error.pathFraction = s;
     error.joint = joint;
     error.value = value;
-    if (isCartesian_) error.position = curve_.at(s).pos;
+    error.position =
+        isCartesian_
+            ? curve_.at(s).pos
+            : frames_.fromFlange(kinematics_.forward(between(start_.robax, end_.robax, s)), externalAt(s))
+                  .pos;
     return error;
 }
 

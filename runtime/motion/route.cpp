@@ -53,6 +53,16 @@ double zoneBegin(const Corner& corner) {
     return begin;
 }
 
+/// mm that a point covers a mm of route, on average between two places.
+template <class PointAt> double meanRate(double from, double to, const PointAt& pointAt) {
+    constexpr int kParts = 8;
+    const double part = (to - from) / kParts;
+    double covered = 0;
+    for (int k = 0; k < kParts; ++k)
+        covered += norm(pointAt(from + part * (k + 1)) - pointAt(from + part * k));
+    return covered / (to - from);
+}
+
 } // namespace
 
 bool Route::isRounded(std::size_t number) const {
@@ -304,14 +314,8 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         const Vec3 from = tcpNear(middle - close);
         const Vec3 to = tcpNear(middle + close);
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
-        if (inCorner) { // in the middle of a corner the tool may turn back, slowly there and fast around it
-            constexpr int kParts = 8;
-            double covered = 0;
-            for (int k = 0; k < kParts; ++k)
-                covered += norm(tcpNear(stretch.begin + 4 * step * (k + 1) / kParts) -
-                                tcpNear(stretch.begin + 4 * step * k / kParts));
-            stretch.tcpRate = std::max(stretch.tcpRate, covered / (4 * step));
-        }
+        if (inCorner) // where the tool turns back, it is slow in the middle and fast beside it
+            stretch.tcpRate = std::max(stretch.tcpRate, meanRate(stretch.begin, stretch.end, tcpNear));
         const FrameSetup& earlier = l.path->frames();
         if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
             const auto place = [&](const RoutePoint& point) {

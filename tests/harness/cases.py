@@ -16,6 +16,7 @@ DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
 # A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
 HANGS_AFTER_S = 60
 MODES = ("jit", "parts", "aot", "step", "words", "stepwords")
+INTERPRETED_MODES = {"words", "stepwords"}
 KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "rule"}
 
 
@@ -30,6 +31,9 @@ class Context:
     rapidc: str
     update: bool
     modes: list
+
+    def interprets_all(self):
+        return set(self.modes) <= INTERPRETED_MODES
 
 
 @dataclasses.dataclass
@@ -281,6 +285,8 @@ class CommandTest:
     stdin: text                        given to the command
     file: NAME expression              a file in the scratch folder must hold this
     lines: N                           at most N lines on stderr
+
+    Where all modes are interpreted ones, each `rapidc run` interprets.
     """
 
     def __init__(self, path):
@@ -314,6 +320,8 @@ class CommandTest:
 
         for command_line, expectations in self.steps():
             command = [context.rapidc if word == "rapidc" else fill(word) for word in shlex.split(command_line)]
+            if command[:2] == [context.rapidc, "run"] and context.interprets_all():
+                command.insert(2, "--interpreted")
             stdin = "".join(value + "\n" for key, value in expectations if key == "stdin")
             output = execute(command, scratch, HANGS_AFTER_S, stdin.encode(), {"RAPIDC": context.rapidc})
             for problem in self.judge(expectations, output, scratch):

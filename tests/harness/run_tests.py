@@ -56,7 +56,9 @@ def case_filter(name):
 
 
 # Groups that `./dev test --quick` leaves out: each of their tests starts several processes, or needs seconds.
-NOT_QUICK = {"cli", "errors", "fuzz"}
+NOT_QUICK = {"cli", "errors", "fuzz", "interpreted"}
+# Folders whose programs run interpreted, too: what leaves a routine or enters it elsewhere than at its beginning.
+INTERPRETED = ("golden/errors", "golden/flow", "golden/interrupts", "golden/stop", "cli/state", "cli/step")
 # Unit tests with these tags need seconds.
 SLOW_TAGS = {"random", "large"}
 
@@ -83,6 +85,9 @@ def write_ctest(path, source, build):
     runner = os.path.join(source, "tests", "harness", "run_tests.py")
     for name in sorted(discover(source)):
         add(name, [sys.executable, runner, "--source", source, "--build", build, "--one", name], 120)
+    for folder in INTERPRETED:
+        add("interpreted/" + folder, [sys.executable, runner, "--source", source, "--build", build, "--modes", "words stepwords",
+                                      folder], 600)
     corpora = os.path.join(source, "tests", "fuzz", "corpus")
     for entry in sorted(os.scandir(corpora), key=lambda entry: entry.name):
         if entry.is_dir():

@@ -2,6 +2,7 @@
 
 import urllib.parse
 
+from rws_client import read_xhtml
 from serve_testing import ServeCase, main
 
 MODULE = """MODULE MainModule
@@ -130,9 +131,12 @@ class EventLog(ServeCase):
             self.assertEqual(response.status, 201)
             socket = self.socket(client, response)
             self.write(client, 1)
-            event = socket.event()
+            text = socket.text()
+            event = read_xhtml(text)[1][0]
             self.assertEqual(event.type, "elog-message-ev")
             number = event.values["seqnum"]
+            # RWS documentation: rel=self links to the message; A5, A7 and A8 read it there. Another one repeats what was subscribed (2.4).
+            self.assertIn(f'<a href="/rw/elog/8/{number}" rel="self"></a><a href="/rw/elog/8" rel="self"></a>', text)
             self.assertEqual(client.get(f"/rw/elog/8/{number}").values()["title"], f"Message {type(self).written}")
 
     def test_clear(self):

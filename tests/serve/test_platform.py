@@ -1,4 +1,4 @@
-"""What a controller has around robot, signals and program, and what a virtual one lacks (facts 2.3, 2.5; RWS documentation)."""
+"""Resources around robot, signals and program, and those that a virtual controller lacks (facts 2.3, 2.5; RWS documentation)."""
 
 import os
 import ssl
@@ -110,7 +110,7 @@ class Platform(ServeCase):
 
 
 class Kept(ServeCase):
-    """What outlives the process: the certificate and changed system parameters (contract 4, 9)."""
+    """These outlive the process: the certificate and changed system parameters (contract 4, 9)."""
     OPTIONS = ("--no-program-start",)
 
     def setUp(self):

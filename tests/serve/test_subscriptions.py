@@ -63,9 +63,8 @@ class LargeValues(SubscriptionCase):
             _, socket = self.open(client, (path + ";value", 1))
             writer = self.client(1)
             target = "/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/long?action=set"
-            for letter, fits in (("a", False), ("b", True)):
-                value = "[" + ",".join(f'"{letter * (80 if not fits else 5)}{client.dialect}"'[:82] for _ in range(16)) + "]"
-                value = value.replace(f'{letter * 80}"', f'{letter * 79}{client.dialect}"')
+            for length, fits in ((79, False), (5, True)):
+                value = "[" + ",".join(f'"{"a" * length}{client.dialect}"' for _ in range(16)) + "]"
                 self.assertEqual(writer.post(target, {"value": value}).status, 204)
                 event = socket.event()  # fails when it has 1 KiB or more
                 self.assertEqual(self.anchor(event), path + ";value")

@@ -114,6 +114,15 @@ class Values(RapidCase):
                     self.assertEqual(self.values_of_all(), before)
             self.assertEqual(client.post(data(client.dialect, path + "number") + ("?action=set" if client.dialect == 1 else ""), {}).status, 400)
 
+    def test_values_that_are_not_escaped(self):
+        """A7 and librws send RAPID values as they are: the plus sign of 9E+09 arrives as a blank. Strings keep theirs."""
+        for client in self.masters():
+            path = data(client.dialect, "T_ROB1/M/target") + ("?action=set" if client.dialect == 1 else "")
+            value = "[[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]]"
+            headers = {"Content-Type": "application/x-www-form-urlencoded" + (";v=2.0" if client.dialect == 2 else "")}
+            self.assertEqual(client.request("POST", path, body="value=" + value, headers=headers).status, 204)
+            self.assertEqual(self.value("T_ROB1/M/target"), value)
+
     def test_system_data(self):
         """controller.md 6.3: user.sys holds reg1; clients read tool0 of BASE."""
         client = self.client(1)

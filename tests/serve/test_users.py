@@ -28,7 +28,7 @@ class Users(RapidCase):
         self.assertEqual([entry.values["grant-name"] for entry in client.get("/uas/grants").entries("grant-info")], names)
         self.assertEqual(client.get("/users/grant-exists?grant=UAS_BACKUP").values("user-grant-status")["status"], "true")
         self.assertEqual(client.get("/users/grant-exists?grant=NONE").status, 400)
-        self.assertEqual(client.get("/uas/ldap").entries(), [])
+        self.assertEqual(client.get("/uas/ldap/settings").status, 403)  # A10: listed, and refused without the option
         self.assertEqual(client.get("/uas/user/password-change-allow").values()["status"], "false")
         self.assertEqual(client.post("/uas/user/password", {"old-password": "robotics", "new-password": "x"}).status, 403)
         self.in_all_forms("/users/grants", "/uas/grants")

@@ -9,6 +9,7 @@
 #include "tools/pendant/unit_frames.h"
 #include "tools/service/manual_motion.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -103,11 +104,14 @@ void MotionArea::begin() {
         planned_.push_back(std::make_unique<PlannedPath>(*motion));
 }
 
-/// Each 4 ms of virtual time, which may pass much faster than the wall clock.
+/// Each 4 ms of virtual time, which may pass much faster than the wall clock, and once at rest: that sample is never left out.
 void MotionArea::sample() {
     if (!hub_.hasClients()) return;
     const Clock::time_point now = Clock::now();
-    if (now < next_) return;
+    const auto& motions = controller_.core().motions();
+    const bool moves = std::any_of(motions.begin(), motions.end(),
+                                   [](const auto& motion) { return motion->isMoving(); });
+    if (moves && now < next_) return;
     next_ = now + kSamplePeriod;
     Json sample = sampleOf(false);
     if (!sample.at("units").empty()) hub_.broadcastUnlessCongested("motion", sample);

@@ -5,6 +5,7 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/program_sources.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/drop_program.h"
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"
@@ -157,6 +158,7 @@ int build(BuildSettings& settings) {
     if (!lowered) return static_cast<int>(rt::ExitStatus::BadProgram);
     const bool loads = compilation->program->uses(rapid::sema::Trait::NeedsSources);
     if (loads) module.sources = pack(*sourcesOf(*compilation, settings.stepping, !settings.noOptimise));
+    dropProgram(*compilation);
     runPassesInParts(options, module, irPasses(*compilation, settings.stepping));
     std::string error;
     if (!makeExecutable(settings, options, module, loads, error)) {

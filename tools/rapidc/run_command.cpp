@@ -5,6 +5,7 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/run_setup.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/drop_program.h"
 #include "tools/rapidc/line_debugger.h"
 
 #include "config/temporary.h"
@@ -106,6 +107,7 @@ int run(RunSettings& settings) {
                         (!settings.options.state.empty() && !settings.noStepping);
     compilation->callsByName = settings.interactive;
     const std::string home = compilation->homeFolder;
+    Compilation& checked = *compilation;
     LoadedProgram program(std::move(compilation));
     const bool compiled =
         program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
@@ -120,6 +122,7 @@ int run(RunSettings& settings) {
         if (!error.empty()) fmt::print(stderr, "rapidc run: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }
+    if (!settings.interactive) dropProgram(checked);
     // The configuration is in the program already; reading it twice would define every signal twice.
     settings.options.configFiles.clear();
     rapid::config::TemporaryFolder folder;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPage = 100;
 
-/// The signal that a signal variable is connected with; -1: none, or it is no signal variable.
+/// The signal that a signal variable is connected with; -1: none, or it is not a signal variable.
 rt::SignalId aliasOf(rt::Controller& core, const rt::GlobalDesc& data) {
     const bool isSignal = data.type != nullptr && data.type->kind == rt::DescKind::Handle &&
                           rapid::config::beginsWithName(data.type->baseName, "signal");

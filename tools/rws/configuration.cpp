@@ -218,7 +218,7 @@ Reply Configuration::load(const Request& request, bool tryOnly) {
     const service::Refusal refusal = store_.load(bytes, mode, tryOnly);
     if (!refusal.empty()) return Reply::refuse(ReturnCode::BadParameter, refusal);
     if (tryOnly) return Reply::done();
-    Reply reply = Reply::done(request.dialect == Dialect::V1 ? 204 : 202);
+    Reply reply = Reply::done(); // A7 takes 200 and 204 only, and needs the address
     reply.location = progress_.begin("cfg-load");
     progress_.done(reply.location, ReturnCode::Success);
     return reply;

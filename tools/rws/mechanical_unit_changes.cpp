@@ -234,7 +234,7 @@ Reply MechanicalUnits::jog(const Request& request, const Unit& unit) {
     return replyTo(manual_.goTo(unit, *jogTarget_));
 }
 
-/// Where jogging with GoToPos goes, in the work object of the unit; mm.
+/// Sets the target of jogging with GoToPos, in the work object of the unit; mm.
 Reply MechanicalUnits::setJogTarget(const Request& request) {
     motion::RobTarget target;
     std::array<double, 11> figures{};
@@ -261,7 +261,7 @@ Reply MechanicalUnits::setJogTarget(const Request& request) {
     return Reply::done();
 }
 
-/// What changes nothing here: ON is refused.
+/// A mode that can only be off here: ON is refused.
 Handler MechanicalUnits::onlyOff(const char* why) {
     return access_.guarded(Domain::Motion, [why](const Request& request) {
         const auto on = readBool(fieldOf(request, "mode"));

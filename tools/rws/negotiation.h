@@ -10,7 +10,7 @@ namespace rapidc::rws {
 
 /// RWS 2.0: the first form of the header Accept that this server has. `path`: v=2.1 counts for the event log only. None: 406.
 std::optional<Form> acceptedForm(std::string_view accept, std::string_view path);
-/// What browsers send when a page does not say what it accepts.
+/// True for what browsers send when a page does not say what it accepts.
 bool acceptsAnything(std::string_view accept);
 /// RWS 2.0: a form says that it is of version 2.0; contents of files may be of any type. False: 415.
 bool isAcceptedContent(const http::Head& head, std::string_view path);

@@ -19,6 +19,17 @@ constexpr std::size_t kMostDigits = 9;
 
 } // namespace
 
+std::string withExponents(std::string text) {
+    const auto isDigit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+    bool inString = false;
+    for (std::size_t i = 1; i + 2 < text.size(); ++i) {
+        if (text[i - 1] == '"') inString = !inString;
+        const bool isExponent = (text[i] == 'E' || text[i] == 'e') && (isDigit(i - 1) || text[i - 1] == '.');
+        if (!inString && isExponent && text[i + 1] == ' ' && isDigit(i + 2)) text[i + 1] = '+';
+    }
+    return text;
+}
+
 std::optional<double> numberIn(std::string_view text) {
     double value = 0;
     if (text.empty() || text.size() > 64 || !rapid::config::parseNumber(trimmed(text), value) ||
@@ -37,8 +48,9 @@ std::optional<std::size_t> countIn(std::string_view text) {
     return value;
 }
 
-std::optional<std::vector<double>> numbersIn(std::string_view text, std::size_t count) {
-    text = trimmed(text);
+std::optional<std::vector<double>> numbersIn(std::string_view given, std::size_t count) {
+    const std::string whole = withExponents(std::string(trimmed(given)));
+    std::string_view text = whole;
     if (text.starts_with('[') != text.ends_with(']')) return std::nullopt;
     if (text.starts_with('[')) text = text.substr(1, text.size() - 2);
     std::vector<double> numbers;

@@ -11,6 +11,8 @@
 
 namespace rapidc::rws {
 
+/// RAPID text in a form that was not escaped: the blank in "9E 09" was a plus sign. Strings stay as they are.
+std::string withExponents(std::string text);
 /// A finite number; none for every other text.
 std::optional<double> numberIn(std::string_view text);
 /// A whole number of at most nine digits, not negative.

@@ -73,10 +73,11 @@ bool isMessage(const Entry& entry) {
 
 /// An entry of an event: the anchor of rel=self repeats what was subscribed.
 Entry eventEntry(Entry entry, Dialect dialect, const std::string& text) {
-    // The first anchor is the one that the clients of these two read: the message of the log, the symbol without ";value".
+    // The first anchor is the one that the clients of these two read: the message of the log, which they expect as rel=self, and the
+    // symbol without ";value".
     entry.links.clear();
     if (entry.type == "elog-message-ev" && !entry.self.empty())
-        entry.links.emplace_back("message", entry.self);
+        entry.links.emplace_back("self", entry.self);
     else if (dialect == Dialect::V2 && rapid::config::beginsWithName(text, "/rw/rapid/symbol/") &&
              text.ends_with(";value"))
         entry.links.emplace_back("symbol", std::string(pathOf(text)));

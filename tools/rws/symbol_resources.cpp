@@ -3,6 +3,7 @@
 #include "config/letter_case.h"
 #include "tools/rws/path_pattern.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
 #include "tools/rws/symbol_text.h"
 
 #include <fmt/format.h>
@@ -134,7 +135,8 @@ Reply SymbolResources::setValue(const Request& request) {
     if (found.data == nullptr) return unknown(request, found.problem);
     if (found.isConstant || found.isProtected)
         return Reply::refuse(ReturnCode::Rejected, path->name + " cannot be changed");
-    if (const std::string problem = assign(found, request.form.text("value")); !problem.empty())
+    if (const std::string problem = assign(found, withExponents(request.form.text("value")));
+        !problem.empty())
         return Reply::refuse(ReturnCode::BadParameter, path->url() + ": " + problem);
     controller_.core().scheduler().lookAtData(); // subscriptions and interrupts see it now
     return Reply::done();
@@ -161,7 +163,7 @@ Reply SymbolResources::validate(const Request& request) {
         if (sameName(name, known->name)) type = known;
     if (type == nullptr) type = typeNamed(controller_.core(), name);
     if (type == nullptr) return badParameter("datatype", "a data type that the program uses");
-    const std::string problem = service::checkValue(*type, dims, request.form.text("value"));
+    const std::string problem = service::checkValue(*type, dims, withExponents(request.form.text("value")));
     return problem.empty() ? Reply::done() : Reply::refuse(ReturnCode::BadParameter, problem);
 }
 

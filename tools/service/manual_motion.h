@@ -54,7 +54,7 @@ class ManualMotion {
     bool isJogging() const;
     /// Why the latest movement of the unit ended early; "" = it did not.
     std::string jogLimit(const rt::MechanicalUnit& unit) const;
-    /// Activates or deactivates an external unit. The program is stopped and the group stands still.
+    /// Activates or deactivates an external unit. The program is stopped and the group is at rest.
     Refusal setActive(const rt::MechanicalUnit& unit, bool active);
     /// Places a unit at these axes without motion, as only a virtual controller can. The program is stopped.
     Refusal teleport(const rt::MechanicalUnit& unit, const motion::JointTarget& joints);

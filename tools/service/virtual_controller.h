@@ -94,7 +94,7 @@ class VirtualController {
     void pressEmergencyStop(bool pressed);
     /// The reset of an emergency stop, after the release of its button: motors off.
     Refusal confirmEmergencyStop();
-    /// What the system outputs BackupInProgress and BackupError show.
+    /// Sets the system outputs BackupInProgress and BackupError.
     void noteBackup(bool inProgress, bool failed);
     /// A safeguard: open or closed.
     void openSafeguard(bool open);

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a task has when its program is unloaded: it needs a main. A system module, so that no client sees it as part of a program.
+/// Takes the place of an unloaded program, since a task needs a main. A system module, so that clients do not see it as part of a
+/// program.
 constexpr const char* kEmptyProgram = "empty_program.sysx";
 constexpr const char* kEmptyText =
     "MODULE EmptyProgram(SYSMODULE, NOVIEW)\n  PROC main()\n  ENDPROC\nENDMODULE\n";

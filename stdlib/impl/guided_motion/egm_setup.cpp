@@ -53,7 +53,7 @@ bool isNamed(const CfgInstance& instance, std::string_view name) {
     return rapid::config::sameName(instance.text("name"), name);
 }
 
-/// What a controller with the option has as long as its MOC.cfg says nothing of external motion data.
+/// The names that a controller with the option has as long as its MOC.cfg does not define external motion data.
 bool isPredefined(std::string_view name) {
     constexpr const char* kNames[] = {"default", "raw", "joint", "pose", "pathcorr", "path_corr"};
     return std::any_of(std::begin(kNames), std::end(kNames),

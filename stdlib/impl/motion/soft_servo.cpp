@@ -1,6 +1,7 @@
 // Manual 1.7, 2.2.5: SoftAct, SoftDeact, TuneServo, TuneReset.
 
 #include "stdlib/impl/motion/soft_servo.h"
+#include "config/json_text.h"
 #include "runtime/debug/state_keepers.h"
 #include "runtime/motion/soft_servo.h"
 #include "runtime/sim/surroundings.h"
@@ -12,8 +13,6 @@
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
-
-#include <nlohmann/json.hpp>
 
 #include <array>
 
@@ -57,7 +56,7 @@ motion::SoftServo& servoOf(Controller& controller, MotionDriver& motion) {
     return *state.servo;
 }
 
-/// What was set has changed; the arm follows within so many seconds.
+/// Brings softness and tuning to the arm, within so many seconds.
 void apply(Controller& controller, MotionDriver& motion, double seconds) {
     const auto& state = motion.service<SoftServoState>();
     motion.refresh();

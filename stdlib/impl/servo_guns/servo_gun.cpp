@@ -90,6 +90,18 @@ Status ServoGun::order(TaskCore* task, double position, double speed, bool conc,
     return orderMove(task, externalMove(task, target, false, nullptr), move, std::move(actions));
 }
 
+/// As long as an instruction lasts that ends with its movement.
+class ServoGun::Awaited {
+  public:
+    Awaited(ServoGun& gun, bool conc) : gun_(gun) { gun_.isAwaited_ = !conc; }
+    ~Awaited() { gun_.isAwaited_ = false; }
+    Awaited(const Awaited&) = delete;
+    Awaited& operator=(const Awaited&) = delete;
+
+  private:
+    ServoGun& gun_;
+};
+
 /// A movement begins, unless an earlier process ended in it.
 Status ServoGun::begin(TaskCore* task, Phase phase) {
     if (std::exchange(wasCutOff_, false))
@@ -105,10 +117,7 @@ Status ServoGun::waitPhase(TaskCore* task, Phase phase) {
     spec.queues = {&changed_};
     spec.condition = [this, phase] { return phase_ == phase || interrupted_ != kOk; };
     WaitResult result{};
-    isAwaited_ = true;
-    const Status status = taskOf(task).waitFor(spec, result);
-    isAwaited_ = false;
-    if (status != kOk) return status;
+    if (const Status status = taskOf(task).waitFor(spec, result)) return status;
     const Status why = std::exchange(interrupted_, kOk);
     if (why == kOk) return kOk;
     return fail(task, why,
@@ -118,6 +127,7 @@ Status ServoGun::waitPhase(TaskCore* task, Phase phase) {
 
 Status ServoGun::close(TaskCore* task, double expected, bool conc) {
     if (const Status status = begin(task, Phase::Closing)) return status;
+    const Awaited awaited(*this, conc);
     const double sheet =
         controller_.service<Surroundings>().value(unit_.name, Surroundings::kThickness, expected);
     thickness_ = std::max(sheet - (wear() - wearKnown_), 0.0);
@@ -131,6 +141,7 @@ Status ServoGun::close(TaskCore* task, double expected, bool conc) {
 
 Status ServoGun::open(TaskCore* task, bool conc) {
     if (const Status status = begin(task, Phase::Opening)) return status;
+    const Awaited awaited(*this, conc);
     controller_.scheduler().cancel(std::exchange(ready_, 0));
     if (const Status status = order(task, openAt_, kFast, conc, [this] { enter(Phase::Open); }))
         return status;
@@ -139,6 +150,7 @@ Status ServoGun::open(TaskCore* task, bool conc) {
 
 Status ServoGun::calibrate(TaskCore* task, Calibration kind, double prePos, bool conc) {
     if (const Status status = begin(task, Phase::Calibrating)) return status;
+    const Awaited awaited(*this, conc);
     const double from = motion_.system().plannedEnd().extax[unit_.own.front().index];
     const auto found = [this, kind] {
         if (interrupted_ != kOk) return;

@@ -57,6 +57,7 @@ class ServoGun {
 
   private:
     Status order(TaskCore* task, double position, double speed, bool conc, std::function<void()> atEnd);
+    class Awaited;
     Status begin(TaskCore* task, Phase phase);
     Status waitPhase(TaskCore* task, Phase phase);
     void take(ArmChange news);
@@ -73,7 +74,7 @@ class ServoGun {
     double openAt_ = 0, thickness_ = 0;
     double wearBase_ = 0, wearKnown_ = 0, tipWear_ = 0, adjustment_ = 0;
     double rampPercent_ = 100;
-    bool isAwaited_ = false;   ///< an instruction waits for the end of its movement
+    bool isAwaited_ = false;   ///< an instruction is in progress that ends with its movement
     bool wasCutOff_ = false;   ///< by the end of an earlier process
     Status interrupted_ = kOk; ///< ERR_SGUN_ESTOP or ERR_SGUN_MOTOFF during the movement
     EventToken ready_ = 0;
