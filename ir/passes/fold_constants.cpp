@@ -160,7 +160,9 @@ bool compute(const Inst& inst, const Constant& a, const Constant& b, Constant& o
 
 class Folder {
   public:
-    explicit Folder(Routine& routine) : routine_(routine), replacement_(routine.insts.size(), kNone) {}
+    Folder(const Module& module, Routine& routine, NativeCode nativeCode)
+        : module_(module), routine_(routine), nativeCode_(nativeCode),
+          replacement_(routine.insts.size(), kNone) {}
 
     void run() {
         for (bool changed = true; changed;) {
@@ -216,13 +218,12 @@ class Folder {
 
     bool evaluate(Inst& inst) {
         TypeId type = valueType(inst);
-        if (type == kVoid || type == kPtr || opInfo(inst.op).touchesMemory) return false;
+        if (type == kVoid || type == kPtr) return false;
+        if (inst.op != Op::CallNative && opInfo(inst.op).touchesMemory) return false;
         for (ValueId operand : inst.operands)
             if (!isConst(operand)) return false;
-        const Constant a = valueOf(inst.operands[0]);
-        const Constant b = inst.operands.size() > 1 ? valueOf(inst.operands[1]) : Constant{};
         Constant out{type};
-        if (!compute(inst, a, b, out)) return false;
+        if (!(inst.op == Op::CallNative ? call(inst, out) : compute(inst, out))) return false;
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();
@@ -231,7 +232,25 @@ class Folder {
         else
             inst.integer = out.integer;
         inst.extra = 0;
+        inst.index = kNone;
         return true;
+    }
+
+    bool compute(const Inst& inst, Constant& out) const {
+        const Constant a = valueOf(inst.operands[0]);
+        const Constant b = inst.operands.size() > 1 ? valueOf(inst.operands[1]) : Constant{};
+        return ir::compute(inst, a, b, out);
+    }
+
+    bool call(const Inst& inst, Constant& out) const {
+        std::vector<double> arguments;
+        for (const ValueId operand : inst.operands) {
+            const Constant value = valueOf(operand);
+            arguments.push_back(value.type == kBool ? static_cast<double>(value.integer) : value.number);
+        }
+        const auto result = callConstNative(module_.natives[inst.index], nativeCode_, arguments);
+        if (!result) return false;
+        return out.type == kBool ? keep(uint64_t{*result != 0}, out) : keep(*result, out);
     }
 
     void dropTrueChecks() {
@@ -246,14 +265,16 @@ class Folder {
             std::erase_if(block.insts, passes);
     }
 
+    const Module& module_;
     Routine& routine_;
+    const NativeCode nativeCode_;
     std::vector<ValueId> replacement_; ///< of a select whose condition is constant
 };
 
 } // namespace
 
-void foldConstants(const Module&, Routine& routine) {
-    Folder(routine).run();
+void foldConstants(const Module& module, Routine& routine, NativeCode nativeCode) {
+    Folder(module, routine, nativeCode).run();
 }
 
 } // namespace ir

@@ -118,6 +118,7 @@ RunResult ProgramRunner::run(Way way) {
     demand(lower::lowerProgram(*program_, options, sink, module), "checked, but not lowered:\n" + show(sink));
     ir::PassOptions passes;
     passes.profile = way.stepping ? ir::Profile::Stepping : ir::Profile::Release;
+    passes.nativeCode = rt::findNativeAddress;
     std::string findings;
     for (const std::string& finding : ir::runPasses(module, passes))
         findings += finding + "\n";

@@ -113,7 +113,8 @@ bool timesStatements(const Compilation& compilation) {
 
 ir::PassOptions irPasses(const Compilation& compilation, bool stepping) {
     return {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
-            .overflowChecks = compilation.overflowChecks};
+            .overflowChecks = compilation.overflowChecks,
+            .nativeCode = rt::findNativeAddress};
 }
 
 bool runIrPasses(ir::Module& module, const ir::PassOptions& options, diag::Sink& sink) {

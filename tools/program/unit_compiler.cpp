@@ -162,7 +162,9 @@ bool SourceCompiler::generate(const sema::CheckedProgram& program, const sema::M
     diag::Sink sink;
     if (!rapid::lower::lowerUnit(program, static_cast<uint32_t>(request.taskIndex), module, unit, sink,
                                  made) ||
-        !runIrPasses(made, {.profile = sources_.stepping ? ir::Profile::Stepping : ir::Profile::Release},
+        !runIrPasses(made,
+                     {.profile = sources_.stepping ? ir::Profile::Stepping : ir::Profile::Release,
+                      .nativeCode = rt::findNativeAddress},
                      sink)) {
         result.problems = problemsOf(sink);
         return false;

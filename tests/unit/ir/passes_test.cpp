@@ -298,6 +298,72 @@ TEST_CASE("a division by a constant 0 is left alone", "[ir]") {
     }
 }
 
+/// Code of the natives of the next test: what a program would call.
+void* codeOfNative(std::string_view symbol) {
+    if (symbol == "rt_third") return reinterpret_cast<void*>(+[](float a) { return a / 3; });
+    if (symbol == "rt_pick")
+        return reinterpret_cast<void*>(
+            +[](bool first, double a, float b) { return first ? static_cast<float>(a) : b; });
+    if (symbol == "rt_isBig") return reinterpret_cast<void*>(+[](double a) { return a > 1e10; });
+    if (symbol == "rt_double")
+        return reinterpret_cast<void*>(+[](float a) { return static_cast<double>(a); });
+    if (symbol == "rt_infinite")
+        return reinterpret_cast<void*>(+[](float) { return std::numeric_limits<float>::infinity(); });
+    return nullptr;
+}
+
+/// The instruction that a routine returns: `call` of natives after folding.
+ir::Inst foldedCall(const std::string& result, const std::string& lines, ir::NativeCode code) {
+    ir::Module module =
+        parse("native @\"rt_third\" const f32 (f32)\n"
+              "native @\"rt_pick\" const f32 (bool, f64, f32)\n"
+              "native @\"rt_isBig\" const bool (f64)\n"
+              "native @\"rt_infinite\" const f32 (f32)\n"
+              "native @\"rt_absent\" const f32 (f32)\n"
+              "native @\"rt_double\" const f64 (f32)\n"
+              "native @\"rt_plain\" plain f32 (f32) finite\n"
+              "routine @\"r\" \"r\" in \"M\" " +
+              result + " (f32 \"x\") {\n  stmt 0 plain 1:1 1:2\n  b0:\n    stmt 0\n" + lines + "}\n");
+    ir::PassOptions options;
+    options.nativeCode = code;
+    for (const std::string& finding : ir::runPasses(module, options, {"fold-constants"}))
+        FAIL_CHECK(finding);
+    const ir::Routine& r = module.routines[0];
+    return r.insts[r.insts[r.blocks[0].insts.back()].operands[0]];
+}
+
+TEST_CASE("a const native with constant arguments is called by the compiler", "[ir]") {
+    const ir::Inst third =
+        foldedCall("f32", "%0 = const f32 1\n%1 = native @\"rt_third\" (%0)\nret %1\n", codeOfNative);
+    CHECK(third.op == Op::Const);
+    CHECK(third.number == static_cast<double>(1.0F / 3)); // in single precision, as the call computes it
+    const std::string picked =
+        "%1 = const f64 0.5\n%2 = const f32 7\n%3 = native @\"rt_pick\" (%0, %1, %2)\nret %3\n";
+    CHECK(foldedCall("f32", "%0 = const bool 1\n" + picked, codeOfNative).number == 0.5);
+    CHECK(foldedCall("f32", "%0 = const bool 0\n" + picked, codeOfNative).number == 7);
+    const ir::Inst big =
+        foldedCall("bool", "%0 = const f64 1e11\n%1 = native @\"rt_isBig\" (%0)\nret %1\n", codeOfNative);
+    CHECK(big.op == Op::Const);
+    CHECK(big.integer == 1);
+}
+
+TEST_CASE("calls whose result is not known to the compiler stay", "[ir]") {
+    const auto opOf = [](const std::string& native, const std::string& argument, ir::NativeCode code) {
+        return foldedCall("f32", argument + "%1 = native @\"" + native + "\" (%0)\nret %1\n", code).op;
+    };
+    const std::string one = "%0 = const f32 1\n";
+    CHECK(opOf("rt_third", one, codeOfNative) == Op::Const);
+    CHECK(opOf("rt_third", one, nullptr) == Op::CallNative);
+    CHECK(opOf("rt_absent", one, codeOfNative) == Op::CallNative); // no code in this process
+    CHECK(opOf("rt_plain", one, codeOfNative) == Op::CallNative);  // may raise
+    CHECK(opOf("rt_infinite", one, codeOfNative) ==
+          Op::CallNative); // out of range: found when the program gets there
+    const std::string wide = "%0 = const f32 1\n%1 = native @\"rt_double\" (%0)\nret %1\n";
+    CHECK(foldedCall("f64", wide, codeOfNative).op ==
+          Op::CallNative); // its last digit depends on the machine
+    CHECK(opOf("rt_third", "%0 = param 0\n", codeOfNative) == Op::CallNative);
+}
+
 TEST_CASE("checks that hold go, checks that fail stay", "[ir]") {
     ir::Module module =
         run(body("void", "%0 = const bool 1\ncheck %0, 5\n%1 = const bool 0\ncheck %1, 6\nret\n"),
