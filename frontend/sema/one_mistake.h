@@ -29,7 +29,7 @@ std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module*
                                 const std::vector<const diag::Diagnostic*>& said,
                                 std::span<const ReportedMisfit> misfits);
 
-/// When everything is reported: a report about a line that lacks its semicolon, and the one that says so, have one cause and
+/// When everything is reported: the first report about the words of a line that lacks its semicolon, and the one that says so,
 /// become one report.
 void mergeLineCauses(diag::Sink& sink);
 

@@ -12,20 +12,18 @@ using namespace syntax;
 diag::Diagnostic& Reports::report(Code code, SourceRange where, std::span<const std::string> args) {
     if (muted_ || isUnclear(where)) return unsaid_ = diag::Diagnostic();
     diag::Diagnostic& d = (collect_ ? *collect_ : sink_).report(code, context_.tree->source, where, args);
-    d.cause = causeInLine(code, where);
+    d.cause = diag::CauseId{++lastCause_};
+    d.line = unfinishedLine(code, where);
     return d;
 }
 
-/// Of a new report: its own, or that of the line which lacks its semicolon, for the first report about the words of that line.
-diag::CauseId Reports::causeInLine(Code code, SourceRange where) {
-    const diag::CauseId own{++lastCause_};
+/// For a report about the words of a line that lacks its semicolon: the cause of the report that says so.
+diag::CauseId Reports::unfinishedLine(Code code, SourceRange where) const {
     const auto& lines = context_.tree->unfinishedLines;
-    if (lines.empty()) return own;
     const auto line = std::lower_bound(lines.begin(), lines.end(), where.end,
                                        [](const auto& one, uint32_t end) { return one.end < end; });
-    if (line == lines.end() || !isOfUnfinished(code, where, line->end)) return own;
-    const diag::CauseId cause{line->cause};
-    return lineCauses_.insert(cause).second ? cause : own;
+    if (line == lines.end() || !isOfUnfinished(code, where, line->end)) return diag::CauseId::None;
+    return diag::CauseId{line->cause};
 }
 
 /// An error in the words of a line that also lacks its semicolon, at `end`: a line that is being typed.

@@ -296,11 +296,9 @@ void mergeLineCauses(diag::Sink& sink) {
     if (ends.empty()) return;
     std::set<diag::CauseId> merged;
     sink.revise([&](Diagnostic& d) {
-        const auto end = ends.find(d.cause);
-        if (d.severity != diag::Severity::Error || d.code == Code::MissingSemicolon || end == ends.end())
-            return true;
-        d.notes.push_back({d.file, end->second, "and ';' is missing here"});
-        merged.insert(d.cause);
+        const auto end = d.severity == diag::Severity::Error ? ends.find(d.line) : ends.end();
+        if (end != ends.end() && merged.insert(d.line).second) // the first report about the line
+            d.notes.push_back({d.file, end->second, "and ';' is missing here"});
         return true;
     });
     if (merged.empty()) return;

@@ -3,8 +3,6 @@
 
 #include "frontend/sema/contexts.h"
 
-#include <set>
-
 namespace rapid::sema {
 
 /// How a node of the tree does not fit the declaration of what it uses.
@@ -59,7 +57,7 @@ class Reports {
     SourceRange quietLine() const { return quietTree_ == context_.tree ? quietLine_ : SourceRange{}; }
 
   private:
-    diag::CauseId causeInLine(Code code, SourceRange where);
+    diag::CauseId unfinishedLine(Code code, SourceRange where) const;
     bool isOfUnfinished(Code code, SourceRange where, uint32_t end) const;
 
     diag::Sink& sink_;
@@ -69,7 +67,6 @@ class Reports {
     const syntax::SyntaxTree* quietTree_ = nullptr; ///< that it is in
     bool muted_ = false;
     uint32_t lastCause_ = 0;
-    std::set<diag::CauseId> lineCauses_; ///< that a report of this check has
     std::vector<ReportedMisfit> misfits_;
     diag::Diagnostic unsaid_;
 };

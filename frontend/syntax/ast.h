@@ -321,7 +321,7 @@ struct SyntaxTree {
     /// Bytes of a line that count as one in unclearLines: the mistakes of a file in one line have nothing to do with each
     /// other.
     static constexpr uint32_t kUnclearReach = 500;
-    /// Lines that lack their semicolon, in order. A report of the checker about its last word or its callee has the cause of
+    /// Lines that lack their semicolon, in order. A report of the checker about its last word or its callee names the cause of
     /// the one that says so: both are one mistake.
     struct UnfinishedLine {
         uint32_t end;

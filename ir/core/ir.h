@@ -248,9 +248,8 @@ struct Native {
     std::vector<TypeId> params;
     bool watches = false; ///< keeps looking at persistents it was given: stores to them become safepoints
     bool finite = false;  ///< plain; the result is never infinite or NaN
-    bool bounded =
-        false; ///< the result exceeds the largest magnitude among the numbers it takes by at most 1
-    bool whole = false; ///< the result is a whole number of at most 52 bits
+    bool bounded = false; ///< the result exceeds the largest of the numbers it takes by at most 1
+    bool whole = false;   ///< the result is a whole number of at most 52 bits
 };
 
 // ---- Module ----------------------------------------------------------------------------------------------

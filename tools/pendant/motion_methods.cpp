@@ -109,8 +109,8 @@ void MotionArea::sample() {
     if (!hub_.hasClients()) return;
     const Clock::time_point now = Clock::now();
     const auto& motions = controller_.core().motions();
-    const bool moves = std::any_of(motions.begin(), motions.end(),
-                                   [](const auto& motion) { return motion->isMoving(); });
+    const bool moves =
+        std::any_of(motions.begin(), motions.end(), [](const auto& motion) { return motion->isMoving(); });
     if (moves && now < next_) return;
     next_ = now + kSamplePeriod;
     Json sample = sampleOf(false);
