@@ -157,16 +157,20 @@ class Lifecycle(LspCase):
         answer = client.response(last)
         self.assertTrue("result" in answer or answer["error"]["code"] == -32800)
 
-    def test_a_request_is_cancelled_while_it_is_worked_on(self):
-        # Chapter "Cancellation Support": the request still gets an answer, the error RequestCancelled.
+    def many_uses(self):
+        """A module that uses a variable often: client, document, text, parameters of a long request for the uses, their number."""
         routines, lines = 400, 25
-        uses = 2 * routines * lines
         text = "MODULE m\n  VAR num n;\n" + "".join(
             f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
         client, document = self.opened(text)
         client.settle()
         ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
                "context": {"includeDeclaration": False}}
+        return client, document, text, ask, 2 * routines * lines
+
+    def test_a_request_is_cancelled_while_it_is_worked_on(self):
+        # Chapter "Cancellation Support": the request still gets an answer, the error RequestCancelled.
+        client, document, _, ask, uses = self.many_uses()
         number = client.start("textDocument/references", ask)
         client.notify("$/cancelRequest", {"id": number})
         client.notify("$/cancelRequest", {"id": number})
@@ -181,31 +185,19 @@ class Lifecycle(LspCase):
 
     def test_an_edit_overtakes_requests_that_wait(self):
         # Chapter "Error codes", ContentModified; issue 19: a request that is overtaken is cancelled, no request blocks typing.
-        routines, lines = 400, 25
-        text = "MODULE m\n  VAR num n;\n" + "".join(
-            f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
-        client, document = self.opened(text)
-        client.settle()
-        ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
-               "context": {"includeDeclaration": False}}
+        client, document, text, ask, uses = self.many_uses()
         numbers = [client.start("textDocument/references", ask) for _ in range(80)]
         self.assertIn("result", client.response(numbers[0]))
         time.sleep(0.15)  # longer than a request may wait when an edit comes
         client.change(document, 2, text.replace("num n;", "num n; VAR num m;"))
         self.assertEqual(client.response(numbers[-1])["error"]["code"], -32801)
         # Requests after the edit are answered.
-        self.assertEqual(len(client.request("textDocument/references", ask)), 2 * routines * lines)
+        self.assertEqual(len(client.request("textDocument/references", ask)), uses)
         self.assertEqual(client.stop(), 0)
 
     def test_an_edit_overtakes_requests_that_come_to_wait_after_it(self):
         # As above, but the edit comes at once: requests before it need not be answered when they are not reached soon.
-        routines, lines = 400, 25
-        text = "MODULE m\n  VAR num n;\n" + "".join(
-            f"  PROC p{i}()\n" + "    n := n + 1;\n" * lines + "  ENDPROC\n" for i in range(routines)) + "ENDMODULE\n"
-        client, document = self.opened(text)
-        client.settle()
-        ask = {"textDocument": {"uri": document}, "position": {"line": 1, "character": 10},
-               "context": {"includeDeclaration": False}}
+        client, document, text, ask, _ = self.many_uses()
         numbers = [client.start("textDocument/references", ask) for _ in range(160)]
         client.change(document, 2, text.replace("num n;", "num n; VAR num m;"))
         self.assertEqual(client.response(numbers[-1])["error"]["code"], -32801)

@@ -26,9 +26,7 @@ bool isNumber(std::string_view text) {
 }
 
 Reply one(std::string type, std::string name, std::string value) {
-    Document document;
-    document.add(std::move(type), name).value(name, std::move(value));
-    return Reply::of(std::move(document));
+    return oneValue(std::move(type), name, name, std::move(value));
 }
 
 } // namespace

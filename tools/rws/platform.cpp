@@ -21,12 +21,6 @@ using rapid::config::sameName;
 
 constexpr std::size_t kMostOnPage = 50;
 
-Reply one(const char* type, const char* title, const char* name, std::string value) {
-    Document document;
-    document.add(type, title).value(name, std::move(value));
-    return Reply::of(std::move(document));
-}
-
 Handler nothing() {
     return [](const Request&) { return Reply::of(Document{}); };
 }
@@ -75,8 +69,8 @@ void Platform::addSafety(Router& router) {
         if (sameName(resource, "safety-mode")) return safetyMode("SCORCH_SAFETY_MODE_ACTIVE_MODE");
         if (sameName(resource, "violation-info")) return noViolation();
         if (sameName(resource, "loadoperation-status"))
-            return one("scorch-load-status", "status", "scorchloadoperationstatus", "OK");
-        return one("ctrl-safety", "safety", "state", "active");
+            return oneValue("scorch-load-status", "status", "scorchloadoperationstatus", "OK");
+        return oneValue("ctrl-safety", "safety", "state", "active");
     });
     router.get(Dialect::V2, base, [](const Request&) {
         return folder({{"safety-mode-li", "ctrl/safety/mode"},
@@ -92,15 +86,15 @@ void Platform::addSafety(Router& router) {
          {"load", "set-mode", "unlock", "lock", "syncack", "validate-cfg", "invalidate-cfg"})
         router.action(base, action, unsupportedOrder());
     router.get(Dialect::V2, base + "/load", [](const Request&) {
-        return one("scorch-load-status", "status", "status", "SCORCH_CONFIG_LOADED");
+        return oneValue("scorch-load-status", "status", "status", "SCORCH_CONFIG_LOADED");
     });
     router.get(Dialect::V2, base + "/config", [](const Request&) {
         return folder({{"safety-startupstatus-li", "ctrl/safety/config/startupstatus"}});
     });
     router.get(Dialect::V2, base + "/config/startupstatus", [](const Request&) {
-        return one("startup-safety-config-load-satus", "status",
-                   "config-status-at-startup", // spelled like this
-                   "SCORCH_CONFIG_LOADED_AT_STARTUP");
+        return oneValue("startup-safety-config-load-satus", "status",
+                        "config-status-at-startup", // spelled like this
+                        "SCORCH_CONFIG_LOADED_AT_STARTUP");
     });
     router.get(Dialect::V2, base + "/cbc", [this](const Request& request) {
         const auto drive = countIn(request.query.text("drivenum"));
@@ -237,8 +231,8 @@ Reply Platform::cameras() const {
 /// Nothing measures the power of simulated drives: state -1 says that the figures are not valid.
 Reply Platform::energy(const Request& request) const {
     if (sameName(request.query.text("resource"), "change-count"))
-        return one("sys-energy-changecount", "change-count", "change-count",
-                   fmt::format("{}", energyChanges_));
+        return oneValue("sys-energy-changecount", "change-count", "change-count",
+                        fmt::format("{}", energyChanges_));
     const int64_t now = controller_.core().calendarSeconds();
     Document document;
     Entry& entry = document.add("sys-energy-state", "energy");

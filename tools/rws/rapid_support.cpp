@@ -22,6 +22,12 @@ Reply folder(std::initializer_list<std::pair<const char*, const char*>> children
     return Reply::of(std::move(document));
 }
 
+Reply oneValue(std::string type, std::string title, std::string name, std::string value) {
+    Document document;
+    document.add(std::move(type), std::move(title)).value(std::move(name), std::move(value));
+    return Reply::of(std::move(document));
+}
+
 Reply badParameter(std::string_view name, std::string_view expected) {
     return Reply::refuse(ReturnCode::BadParameter,
                          std::string(name) + " is missing or wrong; expected: " + std::string(expected));

@@ -15,6 +15,8 @@ namespace rapidc::rws {
 
 /// A resource that only leads to others: a class and a relative path for each.
 Reply folder(std::initializer_list<std::pair<const char*, const char*>> children);
+/// A resource with one value.
+Reply oneValue(std::string type, std::string title, std::string name, std::string value);
 /// 400: "speed-ratio must be ...".
 Reply badParameter(std::string_view name, std::string_view expected);
 /// An order of the controller: 204, or its refusal with this code.

@@ -21,12 +21,6 @@ using rapid::config::sameName;
 constexpr const char* kTime = "/ctrl/virtualtime";
 constexpr double kMostSpeed = 100'000; // per cent of the wall clock's pace
 
-Reply one(const char* type, const char* title, const char* name, std::string value) {
-    Document document;
-    document.add(type, title).value(name, std::move(value));
-    return Reply::of(std::move(document));
-}
-
 } // namespace
 
 System::System(service::VirtualController& controller, const service::FileVolumes& volumes)
@@ -140,10 +134,10 @@ void System::addSystem(Router& router) {
     router.getBoth("/rw/system/options", [this](const Request& r) { return options(r); });
     router.getBoth("/rw/system/products", [this](const Request& r) { return products(r); });
     router.getBoth("/rw/system/license", [](const Request&) {
-        return one("sys-license-info", "license", "license", "virtual controller");
+        return oneValue("sys-license-info", "license", "license", "virtual controller");
     });
     router.getBoth("/rw/system/robottype", [this](const Request&) {
-        return one("sys-robottype", "robottype", "robot-type", facts().robotType);
+        return oneValue("sys-robottype", "robottype", "robot-type", facts().robotType);
     });
     router.getBoth("/rw/retcode", [this](const Request& r) { return returnCode(r); });
 }
@@ -171,8 +165,8 @@ Reply System::identity(const Request& request, Document::Place place) const {
 }
 
 Reply System::clock(const Request&) const {
-    return one("ctrl-clock-info", "clock", "datetime",
-               service::calendarText(controller_.core().calendarSeconds()));
+    return oneValue("ctrl-clock-info", "clock", "datetime",
+                    service::calendarText(controller_.core().calendarSeconds()));
 }
 
 Reply System::setClock(const Request& request) {
@@ -229,7 +223,7 @@ Reply System::environment(const Request& request) const {
         return Reply::refuse(ReturnCode::NotFound,
                              fmt::format("there is no resource or environment variable {}", name));
     const std::string title = "$" + rapid::config::upperCase(name.substr(1));
-    return one("ctrl-env", title.c_str(), request.dialect == Dialect::V1 ? "_value" : "value", title);
+    return oneValue("ctrl-env", title.c_str(), request.dialect == Dialect::V1 ? "_value" : "value", title);
 }
 
 void System::addControl(Router& router) {
@@ -239,19 +233,19 @@ void System::addControl(Router& router) {
     router.getBoth("/ctrl/clock", [this](const Request& r) { return clock(r); });
     router.addBoth({Method::Put, "/ctrl/clock", {}, [this](const Request& r) { return setClock(r); }});
     router.getBoth("/ctrl/clock/timezone",
-                   [](const Request&) { return one("ctrl-timezone", "timezone", "timezone", "UTC"); });
+                   [](const Request&) { return oneValue("ctrl-timezone", "timezone", "timezone", "UTC"); });
     router.getBoth("/ctrl/{name}", [this](const Request& r) { return environment(r); });
     router.getBoth("/ctrl/options", [](const Request&) { return Reply::done(); });
     router.getBoth("/ctrl/options/{option}", [this](const Request& request) {
         const std::string wanted = request.parameter("option");
         for (const std::string& option : facts().options)
-            if (sameName(option, wanted)) return one("ctrl-option", option.c_str(), "option", option);
+            if (sameName(option, wanted)) return oneValue("ctrl-option", option.c_str(), "option", option);
         return Reply::refuse(ReturnCode::NotFound, "the system does not have the option " + wanted);
     });
     router.post(Dialect::V2, "/ctrl/restart", [this](const Request& r) { return restart(r); });
     router.action("/ctrl", "restart", [this](const Request& r) { return restart(r); });
     router.get(Dialect::V2, "/ctrl/restart/restartcount", [this](const Request&) {
-        return one("ctrl-restart-count", "restartcount", "restart-count", fmt::format("{}", restarts_));
+        return oneValue("ctrl-restart-count", "restartcount", "restart-count", fmt::format("{}", restarts_));
     });
 }
 
@@ -286,14 +280,14 @@ void System::addVirtualTime(Router& router) {
     });
     router.getBoth(base + "/vttime", [this](const Request&) {
         const int64_t milliseconds = controller_.core().scheduler().now() / rt::kMillisecond;
-        return one("ctrl-vttime", "vttime", "vtcounter", fmt::format("{}", milliseconds));
+        return oneValue("ctrl-vttime", "vttime", "vtcounter", fmt::format("{}", milliseconds));
     });
     router.getBoth(base + "/vtstate", [this](const Request&) {
-        return one("ctrl-vtstate", "vtstate", "vtcurrstate",
-                   controller_.isTimeRunning() ? "running" : "stopped");
+        return oneValue("ctrl-vtstate", "vtstate", "vtcurrstate",
+                        controller_.isTimeRunning() ? "running" : "stopped");
     });
     router.getBoth(base + "/vtspeed", [this](const Request&) {
-        return one("ctrl-vtspeed", "vtspeed", "vtcurrspeed", fmt::format("{}", controller_.pace()));
+        return oneValue("ctrl-vtspeed", "vtspeed", "vtcurrspeed", fmt::format("{}", controller_.pace()));
     });
     router.getBoth(base + "/vttimeslice", [this](const Request&) {
         const service::CycleCount& cycles = controller_.cycles(); // besides what controllers say
