@@ -315,6 +315,13 @@ class Execution(PendantCase):
         self.page.call("run.start", mode="stepOut")
         self.eventually(lambda: self.task()["state"] != "running" and (self.task()["pointer"] or {}).get("routine") != "helper")
 
+    def test_start_at_once_begins_at_the_line(self):  # docs/pendant.md: a start right after run.pointerToLine begins there
+        for line in ("jAway, v1000", "helper count") * 5:
+            self.page.send("run.pointerToLine", {**MAIN, "line": line_of(line)})
+            self.page.call("run.start", mode="stepIn")
+            expected = line_of("helper count" if "jAway" in line else "note := ValToStr")
+            self.eventually(lambda: (self.task()["pointer"] or {}).get("line") == expected and not self.panel()["running"])
+
     def test_pointer_to_routine(self):
         self.page.call("run.pointerToRoutine", {**MAIN, "routine": "ask"})
         self.page.call("run.start", mode="stepIn")

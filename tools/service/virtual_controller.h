@@ -102,7 +102,8 @@ class VirtualController {
     // ---- Execution -------------------------------------------------------------------------------------------
     /// A NORMAL task executes.
     bool isRunning() const;
-    /// `task`: that one alone; null: all active NORMAL tasks.
+    /// `task`: that one alone; null: all active NORMAL tasks. While the program pointer is on its way to a line, execution
+    /// begins as soon as it is there.
     Refusal start(ExecutionMode mode, rt::Task* task = nullptr);
     Refusal stop(StopMode mode);
     /// Program pointer to main in all NORMAL tasks.
@@ -178,6 +179,7 @@ class VirtualController {
     void switchCycle(const char* change);
     std::string openHome();
     void carryOutCursor();
+    bool isCursorOnItsWay() const;
     bool isAnythingMoving() const;
     void everyFourMilliseconds();
 
@@ -199,6 +201,7 @@ class VirtualController {
     struct Cursor {
         std::string task, module;
         uint32_t line = 0;
+        std::function<Refusal()> start; ///< an order to start that came meanwhile; may be empty
     };
     std::optional<Cursor> cursor_; ///< where the program pointer goes as soon as its routine has been entered
     std::function<void()> release_;

@@ -108,6 +108,14 @@ void VirtualController::openSafeguard(bool open) {
 
 Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
     if (panel_.motors != MotorState::On) return "the motors are off: switch them on first";
+    if (cursor_) carryOutCursor();
+    if (isCursorOnItsWay()) {
+        cursor_->start = [this, mode, task = task == nullptr ? std::string() : task->name()] {
+            rt::Task* const alone = task.empty() ? nullptr : core_->findTask(task);
+            return start(mode, alone);
+        };
+        return {};
+    }
     if (isRunning() && task == nullptr) return "the program is executing already";
     cursor_.reset();
     core_->setRunOnce(panel_.runOnce);
@@ -141,6 +149,7 @@ Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
 }
 
 Refusal VirtualController::stop(StopMode mode) {
+    if (cursor_) cursor_->start = nullptr;
     if (!isRunning()) return {}; // it is what was asked for
     switch (mode) {
     case StopMode::Stop: core_->actionStop(); break;
@@ -196,19 +205,30 @@ Refusal VirtualController::pointerToLine(rt::Task& task, const std::string& modu
         return fmt::format("'{}' is not a procedure without parameters", routine->name);
     if (Refusal refusal = pointerToRoutine(task, module, routine->name); !refusal.empty()) return refusal;
     if (Refusal refusal = core_->debugger().enterRoutine(task); !refusal.empty()) return refusal;
-    cursor_ = Cursor{task.name(), module, line};
+    cursor_ = Cursor{task.name(), module, line, {}};
     return {};
+}
+
+/// The routine of the cursor is being entered, after UNDO handlers and event routines that are still to execute.
+bool VirtualController::isCursorOnItsWay() const {
+    if (!cursor_) return false;
+    const rt::Task* task = core_->findTask(cursor_->task);
+    return task != nullptr && (task->isExecuting() || task->hasWorkWhileStopped());
 }
 
 void VirtualController::carryOutCursor() {
     rt::Task* task = core_->findTask(cursor_->task);
     if (task == nullptr || task->hasWorkWhileStopped()) return;
     if (!task->isStopped() || task->frame == nullptr) return; // it is being entered
-    const Cursor cursor = *cursor_;
+    const Cursor cursor = std::move(*cursor_);
     cursor_.reset();
-    const Refusal refusal = core_->debugger().pointerToLine(*task, cursor.line);
-    if (!refusal.empty())
+    Refusal refusal = core_->debugger().pointerToLine(*task, cursor.line);
+    if (!refusal.empty()) {
         core_->log().write(rt::EventId::StepRefused, task, {"Moving the program pointer", refusal});
+    } else if (cursor.start) {
+        refusal = cursor.start();
+        if (!refusal.empty()) core_->log().write(rt::EventId::StepRefused, task, {"Starting the program", refusal});
+    }
 }
 
 Refusal VirtualController::setTaskActive(rt::Task& task, bool active) {
