@@ -81,7 +81,10 @@ void MastershipResources::addTo(Router& router, Subscribables& subscribables) {
              return watchState(
                  controller_.observers(), {service::Change::Mastership},
                  [this, request, name, domains] {
-                     return entryOf("msh-resource-ev", request, name, domains);
+                     Entry entry = entryOf("msh-resource-ev", request, name, domains);
+                     entry.values
+                         .pop_back(); // sessions share the event: it does not say whether it is theirs
+                     return entry;
                  },
                  changed, out);
          }});

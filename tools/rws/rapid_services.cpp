@@ -1,6 +1,7 @@
 #include "tools/rws/rapid_services.h"
 
 #include "tools/rws/alias_signals.h"
+#include "tools/rws/device_tree.h"
 #include "tools/rws/instruction_catalogue.h"
 #include "tools/rws/rapid_support.h"
 
@@ -15,7 +16,7 @@ RapidServices::RapidServices(service::VirtualController& controller)
       dialogs_(controller), queues_(controller) {}
 
 void RapidServices::addTo(Router& router, Subscribables& subscribables) {
-    users_.addTo(router);
+    users_.addTo(router, subscribables);
     stations_.addTo(router);
     mastershipResources_.addTo(router, subscribables);
     panel_.addTo(router, subscribables);
@@ -28,6 +29,7 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     dialogs_.addTo(router, subscribables);
     queues_.addTo(router, subscribables);
     addAliasSignals(router, controller_);
+    addDeviceTree(router, controller_);
     addInstructionCatalogue(router, controller_);
     router.getBoth("/rw/rapid", [](const Request& request) {
         if (request.dialect == Dialect::V2)
