@@ -1,8 +1,8 @@
 #include "tools/pendant/pendant_service.h"
 #include "unit/temporary_folder.h"
 
-#include "tools/service/configuration_store.h"
 #include "tools/service/breakpoint_list.h"
+#include "tools/service/configuration_store.h"
 #include "tools/service/event_journal.h"
 #include "tools/service/file_volumes.h"
 #include "tools/service/manual_motion.h"
