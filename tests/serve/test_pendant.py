@@ -323,6 +323,15 @@ class Execution(PendantCase):
             expected = line_of("helper count" if "jAway" in line else "note := ValToStr")
             self.eventually(lambda: (self.task()["pointer"] or {}).get("line") == expected and not self.panel()["running"])
 
+    def test_orders_for_the_pointer_one_after_the_other(self):  # docs/pendant.md: the last one counts, none is refused
+        for _ in range(5):
+            self.page.call("run.pointerToLine", {**MAIN, "line": line_of("note := ValToStr")})
+            self.page.call("run.pointerToRoutine", {**MAIN, "routine": "ask"})
+            self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
+            self.page.call("run.pointerToMain")
+            self.page.call("run.start", mode="stepIn")
+            self.eventually(lambda: (self.task()["pointer"] or {}).get("line") == line_of("MoveAbsJ jHome"))
+
     def test_pointer_to_routine(self):
         self.page.call("run.pointerToRoutine", {**MAIN, "routine": "ask"})
         self.page.call("run.start", mode="stepIn")

@@ -102,8 +102,8 @@ class VirtualController {
     // ---- Execution -------------------------------------------------------------------------------------------
     /// A NORMAL task executes.
     bool isRunning() const;
-    /// `task`: that one alone; null: all active NORMAL tasks. While the program pointer is on its way to a line, execution
-    /// begins as soon as it is there.
+    /// `task`: that one alone; null: all active NORMAL tasks. This and the orders for the program pointer wait while the
+    /// program pointer is on its way to a line; the event log says when one that waited is refused.
     Refusal start(ExecutionMode mode, rt::Task* task = nullptr);
     Refusal stop(StopMode mode);
     /// Program pointer to main in all NORMAL tasks.
@@ -180,6 +180,7 @@ class VirtualController {
     std::string openHome();
     void carryOutCursor();
     bool isCursorOnItsWay() const;
+    bool postponed(bool starts, std::function<Refusal()> order);
     bool isAnythingMoving() const;
     void everyFourMilliseconds();
 
@@ -201,7 +202,11 @@ class VirtualController {
     struct Cursor {
         std::string task, module;
         uint32_t line = 0;
-        std::function<Refusal()> start; ///< an order to start that came meanwhile; may be empty
+        struct Order {
+            bool starts = false;
+            std::function<Refusal()> carryOut;
+        };
+        std::vector<Order> next; ///< came meanwhile
     };
     std::optional<Cursor> cursor_; ///< where the program pointer goes as soon as its routine has been entered
     std::function<void()> release_;

@@ -21,8 +21,10 @@ constexpr int kReducedSpeed = 100; // per cent; the limit of 250 mm/s in manual 
 
 bool VirtualController::isRunning() const {
     const auto& tasks = core_->tasks();
-    return std::any_of(tasks.begin(), tasks.end(),
-                       [](const auto& task) { return isNormal(*task) && task->isExecuting(); });
+    return std::any_of(tasks.begin(), tasks.end(), [this](const auto& task) {
+        const bool isPointerMoving = cursor_ && cursor_->task == task->name(); // clients take it for stopped
+        return isNormal(*task) && task->isExecuting() && !isPointerMoving;
+    });
 }
 
 // ---- Panel ---------------------------------------------------------------------------------------------------------
@@ -108,14 +110,7 @@ void VirtualController::openSafeguard(bool open) {
 
 Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
     if (panel_.motors != MotorState::On) return "the motors are off: switch them on first";
-    if (cursor_) carryOutCursor();
-    if (isCursorOnItsWay()) {
-        cursor_->start = [this, mode, task = task == nullptr ? std::string() : task->name()] {
-            rt::Task* const alone = task.empty() ? nullptr : core_->findTask(task);
-            return start(mode, alone);
-        };
-        return {};
-    }
+    if (postponed(true, [=, this] { return start(mode, task); })) return {};
     if (isRunning() && task == nullptr) return "the program is executing already";
     cursor_.reset();
     core_->setRunOnce(panel_.runOnce);
@@ -149,7 +144,10 @@ Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
 }
 
 Refusal VirtualController::stop(StopMode mode) {
-    if (cursor_) cursor_->start = nullptr;
+    if (isCursorOnItsWay()) {
+        std::erase_if(cursor_->next, [](const Cursor::Order& order) { return order.starts; });
+        return {};
+    }
     if (!isRunning()) return {}; // it is what was asked for
     switch (mode) {
     case StopMode::Stop: core_->actionStop(); break;
@@ -175,12 +173,14 @@ Refusal VirtualController::programStopped(const char* order) const {
 }
 
 Refusal VirtualController::resetPointers() {
+    if (postponed(false, [this] { return resetPointers(); })) return {};
     cursor_.reset();
     return core_->debugger().pointerToMain();
 }
 
 Refusal VirtualController::pointerToRoutine(rt::Task& task, const std::string& module,
                                             const std::string& routine) {
+    if (postponed(false, [=, this, &task] { return pointerToRoutine(task, module, routine); })) return {};
     cursor_.reset();
     return core_->debugger().pointerToRoutine(task, module.empty() ? routine : module + ":" + routine);
 }
@@ -188,7 +188,6 @@ Refusal VirtualController::pointerToRoutine(rt::Task& task, const std::string& m
 /// In another routine than the one in progress the pointer goes to that routine first, which is entered; the rest follows in
 /// carryOutCursor().
 Refusal VirtualController::pointerToLine(rt::Task& task, const std::string& module, uint32_t line) {
-    if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
     const rt::RoutineDesc* routine = nullptr;
     for (const rt::RoutineEntry* entry : core_->tables().routines()) {
         const rt::RoutineDesc& desc = *entry->desc;
@@ -198,6 +197,8 @@ Refusal VirtualController::pointerToLine(rt::Task& task, const std::string& modu
             if (desc.statements[s].canStart != 0 && desc.statements[s].line == line) routine = &desc;
     }
     if (routine == nullptr) return fmt::format("no instruction begins in line {} of module {}", line, module);
+    if (postponed(false, [=, this, &task] { return pointerToLine(task, module, line); })) return {};
+    if (!task.isStopped()) return fmt::format("task {} is executing: stop it first", task.name());
     if (task.frame != nullptr && task.frame->routine == routine) {
         if (Refusal refusal = core_->debugger().pointerToLine(task, line); refusal.empty()) return refusal;
     }
@@ -222,13 +223,20 @@ void VirtualController::carryOutCursor() {
     if (!task->isStopped() || task->frame == nullptr) return; // it is being entered
     const Cursor cursor = std::move(*cursor_);
     cursor_.reset();
-    Refusal refusal = core_->debugger().pointerToLine(*task, cursor.line);
-    if (!refusal.empty()) {
-        core_->log().write(rt::EventId::StepRefused, task, {"Moving the program pointer", refusal});
-    } else if (cursor.start) {
-        refusal = cursor.start();
-        if (!refusal.empty()) core_->log().write(rt::EventId::StepRefused, task, {"Starting the program", refusal});
-    }
+    const auto report = [&](const char* order, const Refusal& refusal) {
+        if (!refusal.empty()) core_->log().write(rt::EventId::StepRefused, task, {order, refusal});
+    };
+    report("Moving the program pointer", core_->debugger().pointerToLine(*task, cursor.line));
+    for (const Cursor::Order& order : cursor.next)
+        report(order.starts ? "Starting the program" : "Moving the program pointer", order.carryOut());
+}
+
+/// An order waits while the routine of the cursor is being entered, which takes the time of some instructions.
+bool VirtualController::postponed(bool starts, std::function<Refusal()> order) {
+    if (cursor_) carryOutCursor();
+    if (!isCursorOnItsWay()) return false;
+    cursor_->next.push_back({starts, std::move(order)});
+    return true;
 }
 
 Refusal VirtualController::setTaskActive(rt::Task& task, bool active) {
