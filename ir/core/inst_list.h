@@ -67,7 +67,8 @@ template <class T> class PieceList {
     /// Keeps the first `count` elements, at most as many as there are.
     void truncate(size_t count) {
         pieces_.resize((count + kPiece - 1) / kPiece);
-        if (count % kPiece != 0) pieces_.back().erase(pieces_.back().begin() + count % kPiece, pieces_.back().end());
+        if (count % kPiece != 0)
+            pieces_.back().erase(pieces_.back().begin() + count % kPiece, pieces_.back().end());
         size_ = count;
     }
 

@@ -30,6 +30,10 @@ void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, cons
         problem = findings.empty() ? "" : findings.front();
         return findings.empty();
     };
+    options.release = [&module](uint32_t routine) {
+        module.routines[routine].insts = {};
+        module.routines[routine].blocks = {};
+    };
 }
 
 std::string cacheFolder() {

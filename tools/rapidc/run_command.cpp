@@ -107,15 +107,14 @@ int run(RunSettings& settings) {
     compilation->callsByName = settings.interactive;
     const std::string home = compilation->homeFolder;
     LoadedProgram program(std::move(compilation));
-    const bool compiled =
-        program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
-                         .stepping = settings.stepping,
-                         .optimise = !settings.noOptimise,
-                         .inParts = settings.inParts,
-                         .interpreted = settings.interpreted,
-                         .executedOnce = settings.options.cycles == 1 && !settings.stepping,
-                         .keepsProgram = settings.interactive},
-                        error);
+    const bool compiled = program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
+                                           .stepping = settings.stepping,
+                                           .optimise = !settings.noOptimise,
+                                           .inParts = settings.inParts,
+                                           .interpreted = settings.interpreted,
+                                           .executedOnce = settings.options.cycles == 1 && !settings.stepping,
+                                           .keepsProgram = settings.interactive},
+                                          error);
     printDiagnostics(program.compilation());
     if (!compiled) {
         if (!error.empty()) fmt::print(stderr, "rapidc run: {}\n", error);
