@@ -20,6 +20,29 @@ ENDMODULE
 """
 
 
+class PagesOfRobotWare8(ServeCase):
+    """controller.md 2.3: RobotWare 8 counts pages from 1, oldest first; a client begins at the last page and follows `next`."""
+
+    OPTIONS = ("--no-program-start", "--robotware=8")
+
+    def test_start_is_a_page(self):
+        one, two = self.client(1), self.client(2)
+        for number in range(60):
+            state = "motoroff" if number % 2 else "motoron"
+            self.assertEqual(one.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": state}).status, 204)
+        domain = next(entry for entry in two.get("/rw/elog").entries() if entry.title == "0")
+        count = int(domain.values["numevts"])
+        read = []
+        path = "/rw/elog/0?lang=en&limit=10&start=2"
+        while path:
+            response = two.get(path)
+            self.assertEqual(response.status, 200)
+            read += [int(entry.title.rsplit("/", 1)[1]) for entry in response.entries()]
+            path = response.links().get("next", "").replace("&amp;", "&")
+        self.assertEqual(read, list(range(read[-1] - count + 11, read[-1] + 1)))  # all but the ten of page 1
+        self.assertEqual(two.get(f"/rw/elog/0?limit=10&start={count}").status, 400)
+
+
 class EventLog(ServeCase):
     MODULE = MODULE
     written = 0

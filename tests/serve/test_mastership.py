@@ -76,6 +76,17 @@ class Mastership(RapidCase):
         self.assertEqual(other.post("/rw/mastership/edit/request").status, 204)
         self.assertEqual(other.post("/rw/mastership/edit/release").status, 204)
 
+    def test_names_of_other_versions(self):
+        """37: one table for both dialects; A11 asks RobotWare 7 for "rapid". The id is released by the name that the reply has, too."""
+        client = self.client(2)
+        self.assertEqual(client.post("/rw/mastership/rapid/request").status, 204)
+        self.assertEqual(self.client(1).get("/rw/mastership/rapid").values()["mastership"], "remote")
+        self.assertEqual(self.client(1).get("/rw/mastership/cfg").values()["mastership"], "nomaster")
+        self.assertEqual(client.post("/rw/mastership/rapid/release").status, 204)
+        number = client.post("/rw/mastership/motion/request-with-id").values()["mastership-id"]
+        self.assertEqual(client.post("/rw/mastership/motion/release-with-id", {"mastership-id": number}).status, 204)
+        self.assertEqual(client.get("/rw/mastership/motion").values()["mastership"], "nomaster")
+
     def test_implicit(self):
         """controller.md 2.1, clients: ?mastership=implicit takes it for one request."""
         client = self.client(2)

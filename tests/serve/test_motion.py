@@ -187,9 +187,14 @@ class Motion(ServeCase):
             response = client.act(UNIT, "AllJointSolutions", self.pose_fields(values), action2="all-joints-solution")
             solutions = [numbers(entry.values, [f"robotjoint{i}" for i in range(1, 7)]) for entry in response.entries()]
             self.assertGreater(len(solutions), 1)
+            # A11 reads the class and the quarters of each solution.
+            quarters = [[entry.values[f"quarter_rev_{axis}"] for axis in ("j1", "j4", "j6", "jx")]
+                        for entry in response.entries("all-joint-solutions")]
+            self.assertEqual(len(quarters), len(solutions))
             self.assertTrue(any(max(abs(a - b) for a, b in zip(solution, joints)) < 1e-5 for solution in solutions))
             for solution in solutions:
-                again = self.pose(client, solution).values()
+                again = self.pose(client, solution).values("position-from-joint")
+                self.assertEqual([again[f"quarter-rev-{axis}"] for axis in ("j1", "j4", "j6", "jx")], quarters.pop(0))
                 for name in ("position-x", "position-y", "position-z"):
                     self.assertAlmostEqual(float(again[name]), float(values[name]), 6)
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import time
+import urllib.parse
 
 from pendant_client import Pendant, PendantError
 from serve_testing import SLOW, Serve, ServeCase, main
@@ -344,6 +345,24 @@ class Execution(PendantCase):
         self.assertEqual(self.page.call("breakpoints.list")["breakpoints"], [])
         self.refused("not_found", "breakpoints.clear", {**MAIN, "line": line})
         self.refused("refused", "breakpoints.set", {**MAIN, "line": 100_000})
+
+    def test_breakpoints_are_those_of_all_clients(self):
+        """One list: what a client of RWS sets, pages see at once, and the other way round (docs/pendant.md)."""
+        line = line_of("helper count")
+        client = self.client(2)
+        path = "/rw/rapid/tasks/T_ROB1/program/breakpoints"
+        place = {"module": MAIN["module"], "row": str(line), "column": "1"}
+        self.assertEqual(client.post("/rw/mastership/edit/request").status, 204)
+        self.assertEqual(client.post(path, place).status, 204)
+        self.page.wait("breakpoints", lambda data: [mark["line"] for mark in data["breakpoints"]] == [line])
+        self.page.call("breakpoints.set", {**MAIN, "line": line})  # it is one breakpoint
+        self.assertEqual([entry.values["row"] for entry in client.get(path).entries()], [str(line)])
+        self.page.call("breakpoints.clear")
+        self.assertEqual(client.get(path).entries(), [])
+        self.page.call("breakpoints.set", {**MAIN, "line": line})
+        self.assertEqual(client.delete(path + "?" + urllib.parse.urlencode(place)).status, 204)
+        self.assertEqual(self.page.call("breakpoints.list")["breakpoints"], [])
+        self.assertEqual(client.post("/rw/mastership/edit/release").status, 204)
 
     def test_motion(self):  # at most 60 a second, and a last one at rest
         self.page.call("run.start")

@@ -25,6 +25,27 @@ class Platform(ServeCase):
         for query in ("", "?drivenum=0", "?drivenum=9", "?drivenum=x"):
             self.assertEqual(client.get("/ctrl/safety/cbc" + query).status, 400, query)
 
+    def test_devices_are_a_tree(self):
+        # A10: RWS 1.0 has the parts in the list "devices" of one entry, RWS 2.0 as entries; class dev-id-li in both.
+        for client in self.both():
+            def parts(path, client=client):
+                entries = client.get("/rw/devices" + path).entries()
+                if client.dialect == 1:
+                    self.assertEqual(len(entries), 1)
+                    entries = entries[0].nested
+                self.assertEqual({entry.type for entry in entries}, {"dev-id-li"})
+                return [entry.title for entry in entries]
+            self.assertEqual(parts(""), ["HW_DEVICES", "SW_RESOURCES"])
+            self.assertEqual(parts("/HW_DEVICES"), ["CONTROLLER", "MECHANICAL_UNITS"])
+            self.assertEqual(parts("/hw_devices/mechanical_units"), ["ROB_1"])
+            unit = client.get("/rw/devices/HW_DEVICES/MECHANICAL_UNITS/ROB_1").entries()
+            properties = unit[0].nested if client.dialect == 1 else unit
+            self.assertIn(("Kind", "Robot"), [(entry.values["name"], entry.values["value"]) for entry in properties])
+            self.assertEqual(client.get("/rw/devices/HW_DEVICES/none").status, 404)
+            found = client.act("/rw/devices", "search", {"property": "HW_DEVICES/CONTROLLER"}, "search")
+            self.assertIn("CONTROLLER", [entry.title for entry in found.entries("dev-id-li")])
+            self.assertEqual(client.act("/rw/devices", "search", {}, "search").status, 400)
+
     def test_certificate_store_holds_the_certificate_of_https(self):
         client = self.client(2)
         stores = [entry.values["store-name"] for entry in client.get("/ctrl/certstore").entries("ctrl-certstore-li")]

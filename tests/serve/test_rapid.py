@@ -167,6 +167,13 @@ class Execution(RapidCase):
         self.assertEqual(client.delete(path + "?module=M&row=9&column=1").status, 400)
         self.assertEqual(client.get(path).entries(), [])
 
+    def test_link_and_build_need_a_task(self):
+        """2.3: what is named in the path and is not there is an error."""
+        for client in self.masters():
+            for name in ("link", "build"):
+                self.assertEqual(client.act(TASK, name, {}, name).status, 204)
+                self.assertIn(client.act("/rw/rapid/tasks/T_NONE", name, {}, name).status, (400, 404))
+
     def test_activation(self):
         """31: tasks/T ?action=activate | tasks/activate form task."""
         for client in self.masters():

@@ -73,6 +73,43 @@ class LargeValues(SubscriptionCase):
             writer.close()
 
 
+class StatesWithoutReports(SubscriptionCase):
+    """2.4: networks, devices, system parameters, the privilege of manual mode."""
+
+    FILES = {"EIO.cfg": EIO + '#\nINDUSTRIAL_NETWORK:\n      -Name "Net"\n#\nDEVICENET_DEVICE:\n      -Name "Board" -Address 10\n'}
+
+    def test_devices(self):
+        for client in self.both():
+            title = client.get("/rw/iosystem/devices/Board").entries()[0].title
+            for path, type_, state in (("/rw/iosystem/devices/Board", "ios-devicestate-ev", "disable"),
+                                       (f"/rw/iosystem/devices/{title}", "ios-devicestate-ev", "disable"),
+                                       (f"/rw/iosystem/networks/{title.split('/')[0]}", "ios-networkstate-ev", "stop")):
+                response, socket = self.open(client, (path + ";state", 1))
+                first = response.values(type_)["lstate"]
+                self.assertEqual(client.act(path, "set", {"lstate": state}, "set-lstate").status, 204)
+                event = socket.event()
+                self.assertEqual((event.type, self.anchor(event)), (type_, path + ";state"))
+                self.assertNotEqual(event.values["lstate"], first)
+                back = {"disable": "enable", "stop": "start"}[state]
+                self.assertEqual(client.act(path, "set", {"lstate": back}, "set-lstate").status, 204)
+                self.assertEqual(socket.event().values["lstate"], first)
+            self.assertIn(client.subscribe("/rw/iosystem/devices/None;state").status, (400, 404))
+
+    def test_parameters_and_privilege(self):
+        writer = self.client(1)
+        for client in self.both():
+            _, socket = self.open(client, ("/rw/cfg/eio", 1), ("/users/rmmp", 1))
+            label = f"label{client.dialect}"
+            self.assertEqual(writer.post("/rw/cfg/EIO/EIO_SIGNAL/instances/do1?action=set", {"Label": label}).status, 204)
+            event = socket.event()
+            self.assertEqual((event.type, event.values["name"], self.anchor(event)), ("cfg-domain-ev", "EIO", "/rw/cfg/eio"))
+            self.assertIn(writer.post("/users/rmmp", {"privilege": "modify"}).status, (200, 201, 202, 204))
+            self.assertEqual(socket.event().values["privilege"], "modify")
+            self.assertIn(writer.post("/users/rmmp?action=cancel").status, (200, 204))
+            self.assertEqual(socket.event().values["privilege"], "none")
+        writer.close()
+
+
 class Creating(SubscriptionCase):
     def test_response(self):
         """controller.md 2.4: 201, Location, anchors with end tags, numeric ID, initial values."""

@@ -10,6 +10,7 @@
 
 namespace rapidc::service {
 class VirtualController;
+class BreakpointList;
 class EventJournal;
 class ManualMotion;
 class ConfigurationStore;
@@ -50,6 +51,7 @@ class MethodTable {
 struct Shared {
     service::VirtualController& controller; ///< opened
     service::EventJournal& journal;
+    service::BreakpointList& breakpoints;
     service::ManualMotion& manual;
     const service::ConfigurationStore& configuration;
     const service::FileVolumes& volumes;

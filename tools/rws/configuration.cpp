@@ -3,6 +3,7 @@
 #include "config/letter_case.h"
 #include "config/read_file.h"
 #include "tools/rws/file_service.h"
+#include "tools/rws/polled_states.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 #include "tools/service/cfg_types.h"
@@ -241,7 +242,36 @@ Reply Configuration::save(const Request& request) const {
 
 // ---- Routes --------------------------------------------------------------------------------------------------------
 
-void Configuration::addTo(Router& router, Subscribables&) {
+void Configuration::subscribe(Subscribables& subscribables) {
+    const Subscribables* all = &subscribables;
+    subscribables.add(
+        {"/rw/cfg/{domain}", "", false, std::nullopt,
+         [this, all](const Request& request, const Changed& changed,
+                     Subscription& out) -> std::optional<Failure> {
+             const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
+             if (domain.empty()) return Failure{ReturnCode::NotFound, "there is no such domain", 0};
+             // the text is made only when something of the whole configuration has changed
+             return watchPolled(
+                 *all,
+                 [this, domain, seen = store_.changes(), text = store_.text(domain),
+                  count = uint64_t{0}]() mutable {
+                     if (std::exchange(seen, store_.changes()) != store_.changes()) {
+                         std::string now = store_.text(domain);
+                         if (now != text) ++count;
+                         text = std::move(now);
+                     }
+                     Entry entry;
+                     entry.type = "cfg-domain-ev";
+                     entry.title = domain;
+                     entry.value("name", domain).value("change-count", fmt::format("{}", count));
+                     return entry;
+                 },
+                 changed, out);
+         }});
+}
+
+void Configuration::addTo(Router& router, Subscribables& subscribables) {
+    subscribe(subscribables);
     const std::string all = "/rw/cfg", domain = all + "/{domain}", type = domain + "/{type}";
     const std::string instances = type + "/instances", one = instances + "/{name*}";
     router.getBoth(all, [this](const Request& r) { return domains(r); });

@@ -19,6 +19,7 @@ class Configuration {
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
+    void subscribe(Subscribables& subscribables);
     using Instance = service::ConfigurationStore::Instance;
     Reply domains(const Request& request) const;
     Reply types(const Request& request) const;

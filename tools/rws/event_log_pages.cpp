@@ -110,7 +110,8 @@ Reply EventLogPages::list(const Request& request) const {
             ++skipped;
     const std::size_t total = all.size() - skipped;
     ListPage page;
-    if (const auto failure = readListPage(request, total, kMostOnPage, page))
+    if (const auto failure = readListPage(request, total, kMostOnPage, page,
+                                          request.dialect == Dialect::V2 && robotWare_ >= 8))
         return Reply::refuse(failure->code, failure->message);
     Document document;
     document.place = Document::Place::Resources;

@@ -12,8 +12,10 @@ namespace rapidc::rws {
 class EventLogPages {
   public:
     /// All of them must outlive the routes and all subscriptions.
-    EventLogPages(service::EventJournal& journal, const service::FileVolumes& volumes, Progress& progress)
-        : journal_(journal), volumes_(volumes), progress_(progress) {}
+    /// `robotWare`: 6, 7 or 8; in RWS 2.0 of RobotWare 8 `start` is the number of a page, from 1.
+    EventLogPages(service::EventJournal& journal, const service::FileVolumes& volumes, Progress& progress,
+                  int robotWare)
+        : journal_(journal), volumes_(volumes), progress_(progress), robotWare_(robotWare) {}
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
@@ -27,6 +29,7 @@ class EventLogPages {
     service::EventJournal& journal_;
     const service::FileVolumes& volumes_;
     Progress& progress_;
+    const int robotWare_;
 };
 
 } // namespace rapidc::rws

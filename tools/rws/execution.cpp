@@ -123,7 +123,7 @@ Reply Execution::start(const Request& request) {
     const std::string cycle = request.form.text("cycle");
     const bool once = cycle == "once" || (cycle != "forever" && before);
     if (once != before) (void)controller_.setRunOnce(once);
-    programs_.setStopping(request.form.text("stopatbp") != "disabled");
+    breakpoints_.setStopping(request.form.text("stopatbp") != "disabled");
     const service::Refusal refusal = controller_.start(*mode);
     if (!refusal.empty() && once != before) (void)controller_.setRunOnce(before);
     return replyTo(refusal, ReturnCode::StartRefused);

@@ -2,18 +2,18 @@
 // /rw/rapid/execution: start, stop, steps, program pointer to main, cycle.
 
 #include "tools/rws/access.h"
-#include "tools/rws/programs.h"
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
+#include "tools/service/breakpoint_list.h"
 #include "tools/service/virtual_controller.h"
 
 namespace rapidc::rws {
 
 class Execution {
   public:
-    /// `programs` has the breakpoints.
-    Execution(service::VirtualController& controller, const Access& access, Programs& programs)
-        : controller_(controller), access_(access), programs_(programs) {}
+    Execution(service::VirtualController& controller, const Access& access,
+              service::BreakpointList& breakpoints)
+        : controller_(controller), access_(access), breakpoints_(breakpoints) {}
 
     void addTo(Router& router, Subscribables& subscribables);
 
@@ -25,7 +25,7 @@ class Execution {
 
     service::VirtualController& controller_;
     const Access& access_;
-    Programs& programs_;
+    service::BreakpointList& breakpoints_;
 };
 
 } // namespace rapidc::rws

@@ -1,9 +1,12 @@
 #include "tools/rws/io_units.h"
 
 #include "config/text_util.h"
+#include "tools/rws/polled_states.h"
 #include "tools/rws/request_values.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace rapidc::rws {
 
@@ -192,7 +195,53 @@ Reply IoUnits::deviceConfiguration(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
-void IoUnits::addTo(Router& router, Subscribables&) {
+void IoUnits::subscribe(Subscribables& subscribables) {
+    const Subscribables* all = &subscribables;
+    subscribables.add(
+        {"/rw/iosystem/networks/{network}", "state", false, std::nullopt,
+         [this, all](const Request& request, const Changed& changed,
+                     Subscription& out) -> std::optional<Failure> {
+             const std::string asked = request.parameter("network");
+             const std::vector<std::string> names = devices().networkNames();
+             const auto found = std::find_if(names.begin(), names.end(),
+                                             [&](const std::string& name) { return sameName(name, asked); });
+             if (found == names.end())
+                 return Failure{ReturnCode::NotFound, fmt::format("there is no I/O network {}", asked), 0};
+             const std::string network = *found;
+             return watchPolled(
+                 *all,
+                 [this, network] {
+                     Entry entry;
+                     entry.type = "ios-networkstate-ev";
+                     entry.title = network;
+                     describeNetwork(network, entry);
+                     return entry;
+                 },
+                 changed, out);
+         }});
+    subscribables.add({"/rw/iosystem/devices/{device*}", "state", false, std::nullopt,
+                       [this, all](const Request& request, const Changed& changed,
+                                   Subscription& out) -> std::optional<Failure> {
+                           const std::string device = find(request);
+                           if (device.empty())
+                               return Failure{
+                                   ReturnCode::NotFound,
+                                   fmt::format("there is no I/O device {}", request.parameter("device")), 0};
+                           return watchPolled(
+                               *all,
+                               [this, device] {
+                                   Entry entry;
+                                   entry.type = "ios-devicestate-ev";
+                                   entry.title = device;
+                                   describeDevice(device, entry);
+                                   return entry;
+                               },
+                               changed, out);
+                       }});
+}
+
+void IoUnits::addTo(Router& router, Subscribables& subscribables) {
+    subscribe(subscribables);
     const std::string networks = "/rw/iosystem/networks", devices = "/rw/iosystem/devices";
     const std::string network = networks + "/{network}", device = devices + "/{device*}";
     router.getBoth("/rw/iosystem", [](const Request&) {

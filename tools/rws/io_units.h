@@ -15,6 +15,7 @@ class IoUnits {
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
+    void subscribe(Subscribables& subscribables);
     rt::IoDevices& devices() const { return controller_.core().io().devices(); }
     Reply networks(const Request& request) const;
     Reply network(const Request& request) const;

@@ -148,6 +148,19 @@ Handler Kinematics::forRobot(Calculation calculation) const {
     };
 }
 
+namespace {
+
+/// RobotWare 6 spells the first one with two digits; clients read either.
+void addQuarters(const robot::ConfData& conf, Entry& entry) {
+    entry.value("quarter_rev_j1", fmt::format("{}", conf.cf1))
+        .value("quarter_rev_j11", fmt::format("{}", conf.cf1))
+        .value("quarter_rev_j4", fmt::format("{}", conf.cf4));
+    entry.value("quarter_rev_j6", fmt::format("{}", conf.cf6))
+        .value("quarter_rev_jx", fmt::format("{}", conf.cfx));
+}
+
+} // namespace
+
 Reply Kinematics::poseFromJoints(const Request& request, const rt::MechanicalUnit& unit) const {
     const robot::Kinematics& kinematics = manual_.motionOf(unit).system().kinematics();
     const auto joints = jointsIn(kinematics, fieldOf(request, "rob_joints"), fieldOf(request, "ext_joints"));
@@ -161,7 +174,7 @@ Reply Kinematics::poseFromJoints(const Request& request, const rt::MechanicalUni
     const motion::Pose tcp = holdsObject ? inverse(flange) * *tool : flange * *tool;
     const robot::ConfData conf = kinematics.configuration(*joints);
     Document document;
-    Entry& entry = document.add("ms-pose", unit.name);
+    Entry& entry = document.add("position-from-joint", unit.name);
     entry.value("position-x", shownExactly(tcp.pos.x / kMillimetres))
         .value("position-y", shownExactly(tcp.pos.y / kMillimetres));
     entry.value("position-z", shownExactly(tcp.pos.z / kMillimetres));
@@ -191,7 +204,7 @@ Reply Kinematics::jointsFromPose(const Request& request, const rt::MechanicalUni
     }
     if (!joints) return outOfReach(joints.error().message());
     Document document;
-    addJoints(kinematics, *joints, document.add("ms-robotjoints", unit.name));
+    addJoints(kinematics, *joints, document.add("joints-from-cartesian", unit.name));
     return Reply::of(std::move(document));
 }
 
@@ -208,8 +221,9 @@ Reply Kinematics::allSolutions(const Request& request, const rt::MechanicalUnit&
         if (!branches.has(i)) continue;
         robot::Joints joints = branches.joints[static_cast<std::size_t>(i)];
         if (!bringWithin(kinematics, joints)) continue;
-        addJoints(kinematics, joints,
-                  document.add("ms-robotjoints-li", fmt::format("{}", document.entries.size() + 1)));
+        Entry& entry = document.add("all-joint-solutions", fmt::format("{}", document.entries.size() + 1));
+        addJoints(kinematics, joints, entry);
+        addQuarters(kinematics.configuration(joints), entry);
     }
     if (document.entries.empty())
         return outOfReach(branches.valid == 0 ? "it is out of reach" : "an axis would leave its range");

@@ -22,7 +22,9 @@ const std::vector<Named>& domainsOf(Dialect dialect) {
 std::vector<Domain> asked(const Request& request) {
     const std::string& name = request.parameter("domain");
     std::vector<Domain> all;
-    for (const auto& [known, domains] : domainsOf(request.dialect)) {
+    // Clients that know RobotWare 6 use its names in both dialects.
+    const bool isOldName = rapid::config::sameName(name, "cfg") || rapid::config::sameName(name, "rapid");
+    for (const auto& [known, domains] : domainsOf(isOldName ? Dialect::V1 : request.dialect)) {
         if (name.empty() || rapid::config::sameName(known, name))
             all.insert(all.end(), domains.begin(), domains.end());
     }
@@ -79,7 +81,10 @@ void MastershipResources::addTo(Router& router, Subscribables& subscribables) {
              return watchState(
                  controller_.observers(), {service::Change::Mastership},
                  [this, request, name, domains] {
-                     return entryOf("msh-resource-ev", request, name, domains);
+                     Entry entry = entryOf("msh-resource-ev", request, name, domains);
+                     entry.values
+                         .pop_back(); // sessions share the event: it does not say whether it is theirs
+                     return entry;
                  },
                  changed, out);
          }});
@@ -148,7 +153,9 @@ Reply MastershipResources::requestWithId(const Request& request) {
 Reply MastershipResources::releaseWithId(const Request& request) {
     const std::vector<Domain> domains = asked(request);
     if (domains.empty()) return noDomain(request);
-    const auto id = readWhole(request.form.text("mastershipid"), 1, INT32_MAX);
+    // The reply of request-with-id spells it with a hyphen.
+    const char* field = request.form.has("mastership-id") ? "mastership-id" : "mastershipid";
+    const auto id = readWhole(request.form.text(field), 1, INT32_MAX);
     if (!id || !mastership_.releaseWithId(domains, static_cast<int>(*id)))
         return badParameter("mastershipid", "the id that request-with-id gave");
     return Reply::done();

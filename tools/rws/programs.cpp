@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 using rapid::config::sameName;
 
 constexpr const char* kPath = "/rw/rapid/tasks/{task}/program";
-constexpr std::size_t kMostBreakpoints = 1000;
 
 std::string field(const Request& request, const char* name) {
     return request.query.has(name) ? request.query.text(name) : request.form.text(name);
@@ -33,19 +32,6 @@ std::string programFile(const std::vector<std::string>& files) {
 }
 
 } // namespace
-
-Programs::Programs(service::VirtualController& controller, const Access& access)
-    : controller_(controller), access_(access) {
-    service::Observer observer;
-    observer.changed = [this](service::Change change, const rt::Task*) {
-        if (change == service::Change::Generation) setAgain();
-    };
-    observer_ = controller_.observers().add(std::move(observer));
-}
-
-Programs::~Programs() {
-    controller_.observers().remove(observer_);
-}
 
 void Programs::addTo(Router& router) {
     router.getBoth(kPath, [this](const Request& request) { return show(request); });
@@ -204,28 +190,15 @@ Reply Programs::setEntry(const Request& request) {
 
 // ---- Breakpoints -----------------------------------------------------------------------------------------------------
 
-rt::Breakpoint Programs::setInDebugger(const std::string& task, const std::string& module, uint32_t line) {
-    rt::Debugger& debugger = controller_.core().debugger();
-    debugger.watch();
-    return debugger.breakpoints().addLine(
-        module, line, [module](const rt::RoutineDesc& routine) { return rt::isPlace(routine, module); },
-        [this, task](rt::Task& at, rt::Frame*) { return stopping_ && sameName(at.name(), task); });
-}
-
-void Programs::setAgain() {
-    for (Break& each : breaks_)
-        each.id = setInDebugger(each.task, each.module, each.line).id;
-}
-
 Reply Programs::listBreaks(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     Document document;
-    for (const Break& each : breaks_) {
+    for (const service::BreakpointList::Mark& each : breakpoints_.all()) {
         if (!sameName(each.task, task->name())) continue;
-        document.add("rap-breakpoint-li", fmt::format("{}/{},{}", each.module, each.line, each.column))
+        document.add("rap-breakpoint-li", fmt::format("{}/{},{}", each.module, each.shownLine(), each.column))
             .value("module", each.module)
-            .value("row", std::to_string(each.line))
+            .value("row", std::to_string(each.shownLine()))
             .value("column", std::to_string(each.column));
     }
     return Reply::of(std::move(document));
@@ -241,34 +214,25 @@ Reply Programs::setBreak(const Request& request) {
     if (!column) return badParameter("column", "a number");
     const auto* found = controller_.core().tables().findModule(static_cast<int32_t>(task->index()), module);
     if (found == nullptr) return Reply::refuse(ReturnCode::NoModule, "There is no module " + module);
-    const auto same = [&](const Break& each) {
-        return sameName(each.task, task->name()) && sameName(each.module, module) && each.line == *row;
-    };
-    if (std::any_of(breaks_.begin(), breaks_.end(), same)) return Reply::done();
-    if (breaks_.size() >= kMostBreakpoints)
-        return Reply::refuse(ReturnCode::TooLarge, "There are too many breakpoints");
-    rt::Breakpoints& breakpoints = controller_.core().debugger().breakpoints();
-    const rt::Breakpoint made = setInDebugger(task->name(), found->name, static_cast<uint32_t>(*row));
-    if (made.actualLine != static_cast<uint32_t>(*row)) {
-        breakpoints.remove(made.id);
+    service::BreakpointList::Mark mark;
+    mark.task = task->name();
+    mark.module = found->name;
+    mark.line = static_cast<uint32_t>(*row);
+    mark.column = static_cast<uint32_t>(*column);
+    using Added = service::BreakpointList::Added;
+    const Added added = breakpoints_.add(mark, true);
+    if (added == Added::TooMany) return Reply::refuse(ReturnCode::TooLarge, "There are too many breakpoints");
+    if (added == Added::NoInstruction || added == Added::NotInLine)
         return badParameter("row", "a line in which an instruction begins");
-    }
-    breaks_.push_back(
-        {task->name(), found->name, static_cast<uint32_t>(*row), static_cast<uint32_t>(*column), made.id});
     return Reply::done();
 }
 
 Reply Programs::removeBreak(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    const std::string module = field(request, "module");
     const auto row = readWhole(field(request, "row"), 1, 10'000'000);
-    const auto found = std::find_if(breaks_.begin(), breaks_.end(), [&](const Break& each) {
-        return sameName(each.task, task->name()) && sameName(each.module, module) && row && each.line == *row;
-    });
-    if (found == breaks_.end()) return badParameter("module or row", "the place of a breakpoint");
-    controller_.core().debugger().breakpoints().remove(found->id);
-    breaks_.erase(found);
+    if (!row || breakpoints_.remove(task->name(), field(request, "module"), static_cast<uint32_t>(*row)) == 0)
+        return badParameter("module or row", "the place of a breakpoint");
     return Reply::done();
 }
 

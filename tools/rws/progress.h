@@ -24,6 +24,8 @@ class Progress {
         bool isReady = false;
         ReturnCode code = ReturnCode::Success;
     };
+    static void describe(const Work& work, Entry& entry);
+
     std::map<uint64_t, Work> works_;
     uint64_t last_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "tools/rws/rapid_services.h"
 
 #include "tools/rws/alias_signals.h"
+#include "tools/rws/device_tree.h"
 #include "tools/rws/instruction_catalogue.h"
 #include "tools/rws/rapid_support.h"
 
@@ -9,12 +10,13 @@ namespace rapidc::rws {
 RapidServices::RapidServices(service::VirtualController& controller)
     : controller_(controller), mastership_(controller.observers()), stations_(controller, mastership_),
       access_(controller, mastership_, users_, stations_), mastershipResources_(controller, mastership_),
-      panel_(controller, access_), programs_(controller, access_), execution_(controller, access_, programs_),
-      tasks_(controller, access_), pointers_(controller, access_), modules_(controller, access_),
-      symbols_(controller, access_), dialogs_(controller), queues_(controller) {}
+      panel_(controller, access_), breakpoints_(controller), programs_(controller, access_, breakpoints_),
+      execution_(controller, access_, breakpoints_), tasks_(controller, access_),
+      pointers_(controller, access_), modules_(controller, access_), symbols_(controller, access_),
+      dialogs_(controller), queues_(controller) {}
 
 void RapidServices::addTo(Router& router, Subscribables& subscribables) {
-    users_.addTo(router);
+    users_.addTo(router, subscribables);
     stations_.addTo(router);
     mastershipResources_.addTo(router, subscribables);
     panel_.addTo(router, subscribables);
@@ -27,6 +29,7 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     dialogs_.addTo(router, subscribables);
     queues_.addTo(router, subscribables);
     addAliasSignals(router, controller_);
+    addDeviceTree(router, controller_);
     addInstructionCatalogue(router, controller_);
     router.getBoth("/rw/rapid", [](const Request& request) {
         if (request.dialect == Dialect::V2)

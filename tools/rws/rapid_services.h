@@ -27,6 +27,8 @@ class RapidServices {
     void addTo(Router& router, Subscribables& subscribables);
     /// For resources elsewhere that change something.
     const Access& access() const { return access_; }
+    /// Shared with the web page.
+    service::BreakpointList& breakpoints() { return breakpoints_; }
 
     // On the controller's thread:
     /// A session was closed, or has expired.
@@ -42,6 +44,7 @@ class RapidServices {
     Access access_;
     MastershipResources mastershipResources_;
     Panel panel_;
+    service::BreakpointList breakpoints_;
     Programs programs_;
     Execution execution_;
     Tasks tasks_;

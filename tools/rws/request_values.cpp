@@ -95,22 +95,23 @@ std::string escapedSegment(std::string_view segment) {
 }
 
 std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
-                                    ListPage& page) {
+                                    ListPage& page, bool countsPages) {
     const std::string startText = request.query.text("start"), limitText = request.query.text("limit");
-    const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
+    auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
     const auto limit = limitText.empty() ? std::optional(most) : countIn(limitText);
     if (!start || !limit || *limit == 0)
         return Failure{ReturnCode::BadPage, "start is a number from 0, limit one from 1", 0};
+    const std::size_t size = std::min(*limit, most);
+    if (countsPages) *start = *start == 0 ? 0 : std::min(*start - 1, total) * size;
     if (*start > 0 && *start >= total)
         return Failure{ReturnCode::BadPage,
                        fmt::format("start is {}, but there are {} entries", *start, total), 0};
-    const std::size_t size = std::min(*limit, most);
     page.begin = *start;
     page.end = std::min(total, *start + size);
     if (page.end == total) return std::nullopt;
     for (const std::string& segment : request.segments)
         page.next += '/' + escapedSegment(segment);
-    page.next += fmt::format("?start={}&limit={}", page.end, size);
+    page.next += fmt::format("?start={}&limit={}", countsPages ? page.end / size + 1 : page.end, size);
     for (const auto& [name, value] : request.query.all()) // json=1, lang=en
         if (!sameName(name, "start") && !sameName(name, "limit"))
             page.next += fmt::format("&{}={}", escapedSegment(name), escapedSegment(value));

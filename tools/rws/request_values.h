@@ -33,9 +33,9 @@ struct ListPage {
     std::string next;               ///< href of the next page; "" = none
 };
 /// The page that a request asks for, of a list of `total` entries. Never more than `most` entries; a limit of 0 and a start that
-/// is not a number are failures.
+/// is not a number are failures. `countsPages`: start is the number of the page, from 1.
 std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
-                                    ListPage& page);
+                                    ListPage& page, bool countsPages = false);
 
 /// The value of a field of the form or, when it has none of this name, of the query.
 std::string fieldOf(const Request& request, std::string_view name);

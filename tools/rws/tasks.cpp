@@ -65,11 +65,12 @@ void Tasks::addTo(Router& router, Subscribables& subscribables) {
              access_.guarded(Domain::Rapid, [](const Request&) {
                  return Reply::refuse(ReturnCode::Rejected, "The task executes on its normal level");
              }));
-    addOrder(router, kTask, "link", "link", access_.guarded(Domain::Rapid, [](const Request&) {
-        return Reply::done(); // programs are always linked
-    }));
-    router.action(kTask, "build",
-                  access_.guarded(Domain::Rapid, [](const Request&) { return Reply::done(); }));
+    const Handler link = access_.guarded(Domain::Rapid, [this](const Request& request) {
+        // programs are always linked: what has mistakes is not taken
+        return taskOf(controller_, request) == nullptr ? noTask(request) : Reply::done();
+    });
+    addOrder(router, kTask, "link", "link", link);
+    addOrder(router, kTask, "build", "build", link);
     for (const char* action : {"start-spy", "stop-spy"})
         router.action(kTasks, action, [](const Request&) {
             return Reply::refuse(ReturnCode::NotSupported,

@@ -1,6 +1,7 @@
 #include "tools/rws/users.h"
 
 #include "config/letter_case.h"
+#include "tools/rws/polled_states.h"
 #include "tools/rws/rapid_support.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,30 @@ Users::Person Users::personOf(const Session& session) const {
     return person;
 }
 
-void Users::addTo(Router& router) {
+void Users::subscribe(Subscribables& subscribables) {
+    const Subscribables* all = &subscribables;
+    subscribables.add({"/users/rmmp", "", false, std::nullopt,
+                       [this, all](const Request&, const Changed& changed, Subscription& out) {
+                           return watchPolled(
+                               *all,
+                               [this] {
+                                   const auto holder =
+                                       privileged_.empty() ? names_.end() : names_.find(*privileged_.begin());
+                                   const bool isHeld = holder != names_.end();
+                                   Entry entry;
+                                   entry.type = "user-rmmp-ev";
+                                   entry.title = "rmmp";
+                                   entry.value("userid", isHeld ? std::to_string(holder->first) : "0")
+                                       .value("alias", isHeld ? holder->second : "")
+                                       .value("privilege", isHeld ? "modify" : "none");
+                                   return entry;
+                               },
+                               changed, out);
+                       }});
+}
+
+void Users::addTo(Router& router, Subscribables& subscribables) {
+    subscribe(subscribables);
     router.getBoth("/users", [this](const Request& request) { return list(request); });
     router.postBoth("/users", [this](const Request& request) { return registerPerson(request); });
     router.action("/users", "set-locale", [this](const Request& request) { return registerPerson(request); });

@@ -2,6 +2,7 @@
 // People at clients: who is logged on, their grants, and the privilege to modify in manual mode (RMMP).
 
 #include "tools/rws/router.h"
+#include "tools/rws/subscribable.h"
 
 #include <cstdint>
 #include <map>
@@ -12,7 +13,7 @@ namespace rapidc::rws {
 
 class Users {
   public:
-    void addTo(Router& router);
+    void addTo(Router& router, Subscribables& subscribables);
     /// The session has the privilege to modify in manual mode.
     bool mayModify(uint64_t session) const { return privileged_.contains(session); }
     void sessionEnded(uint64_t session);
@@ -29,6 +30,7 @@ class Users {
     Reply privilege(const Request& request) const;
     Reply poll(const Request& request) const;
     void addGrants(Router& router);
+    void subscribe(Subscribables& subscribables);
     Person personOf(const Session& session) const;
 
     std::map<uint64_t, Person> people_; ///< by session

@@ -1,6 +1,7 @@
 #include "tools/pendant/pendant_service.h"
 #include "unit/temporary_folder.h"
 
+#include "tools/service/breakpoint_list.h"
 #include "tools/service/configuration_store.h"
 #include "tools/service/event_journal.h"
 #include "tools/service/file_volumes.h"
@@ -78,7 +79,8 @@ class Served {
         journal_ = std::make_unique<service::EventJournal>(*controller_);
         manual_ = std::make_unique<service::ManualMotion>(*controller_);
         configuration_ = std::make_unique<service::ConfigurationStore>(*controller_, folder_.path.string());
-        const Shared shared{*controller_, *journal_, *manual_, *configuration_, volumes_};
+        breakpoints_ = std::make_unique<service::BreakpointList>(*controller_);
+        const Shared shared{*controller_, *journal_, *breakpoints_, *manual_, *configuration_, volumes_};
         service = std::make_unique<PendantService>(
             shared, PendantSettings{.files = fallbackPage(), .password = "secret", .address = "0.0.0.0"});
         service->setPort(8080);
@@ -115,6 +117,7 @@ class Served {
     TemporaryFolder folder_;
     std::unique_ptr<service::VirtualController> controller_;
     std::unique_ptr<service::EventJournal> journal_;
+    std::unique_ptr<service::BreakpointList> breakpoints_;
     std::unique_ptr<service::ManualMotion> manual_;
     service::FileVolumes volumes_;
     std::unique_ptr<service::ConfigurationStore> configuration_;

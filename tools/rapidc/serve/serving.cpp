@@ -14,9 +14,9 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
       subscriptions_(
           subscribables_, [this](std::function<void()> work) { controller_.post(std::move(work)); },
           [this](std::function<void()> work) { server_.post(std::move(work)); }),
-      pendant_(
-          {controller, plant_.journal(), plant_.manualMotion(), plant_.configuration(), plant_.volumes()},
-          {.password = settings.password, .address = settings.address}) {
+      pendant_({controller, plant_.journal(), rapid_.breakpoints(), plant_.manualMotion(),
+                plant_.configuration(), plant_.volumes()},
+               {.password = settings.password, .address = settings.address}) {
     rws::addFolders(router_); // first: services may describe their folder themselves
     rapid_.addTo(router_, subscribables_);
     plant_.addTo(router_, subscribables_);
