@@ -36,6 +36,9 @@ struct NativeBodies {
     }
 };
 
+/// Frees the instructions of a routine of the module: no code will be generated from them any more.
+using ReleaseRoutine = std::function<void(uint32_t routine)>;
+
 struct CodegenOptions {
     bool optimise =
         true; ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
@@ -48,6 +51,8 @@ struct CodegenOptions {
     /// Called once for each routine of such a program before it is compiled, on any thread, never twice at a time for one; empty:
     /// all are ready.
     PrepareRoutine prepare = {};
+    /// Called by jit() for a huge routine of such a program when its words are written; empty: its instructions remain.
+    ReleaseRoutine release = {};
     /// The program is executed once from its beginning to its end: jit() leaves out the optimiser when few instructions can be
     /// executed at all, since it would take longer than they do.
     bool isExecutedOnce = false;

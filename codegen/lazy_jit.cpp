@@ -21,6 +21,7 @@
 
 #include "codegen/compile.h"
 #include "codegen/hot_code.h"
+#include "codegen/interpreted_routine.h"
 #include "codegen/module_emitter.h"
 #include "codegen/orc_session.h"
 #include "codegen/parts.h"
@@ -53,6 +54,7 @@ class LazyProgram : public JitProgram {
     LazyProgram(const ir::Module& module, const CodegenOptions& options)
         : module_(module), options_(options), slots_(module.routines.size()),
           counts_(module.routines.size(), kHotCalls), prepared_(module.routines.size(), !options.prepare),
+          released_(module.routines.size(), false),
           settingTaskFrame_(std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}))),
           quality_(module.routines.size(), Quality::None) {
         // It takes longer than the code.
@@ -179,6 +181,7 @@ class LazyProgram : public JitProgram {
         part.settingTaskFrame = settingTaskFrame_;
         part.countsCalls = options_.optimise && !optimise;
         if (optimise) part.copies = copiesFor(module_, part.routines);
+        std::erase_if(part.copies, [&](uint32_t copy) { return released_[copy]; });
         for (const uint32_t copy : part.copies)
             prepare(copy);
         std::string error;
@@ -187,7 +190,7 @@ class LazyProgram : public JitProgram {
             object ? session_.addPrivate(std::move(object), symbolOf(routine), error) : nullptr;
         if (!address) giveUp(order.routine, error);
         slots_[order.routine].store(const_cast<void*>(address));
-        return optimise ? Quality::Optimised : Quality::Quick;
+        return optimise || released_[order.routine] ? Quality::Optimised : Quality::Quick;
     }
 
     void prepare(uint32_t routine) {
@@ -206,15 +209,25 @@ class LazyProgram : public JitProgram {
     }
 
     std::unique_ptr<llvm::MemoryBuffer> objectOf(const Part& part, const CodegenOptions& options,
-                                                 std::string& error) const {
+                                                 std::string& error) {
         auto machine = makeTargetMachine(options, error);
         if (!machine) return nullptr;
         llvm::LLVMContext context;
         auto compiled = compile(module_, options, *machine, context, error, &part);
+        if (compiled) releaseInterpreted(part.routines);
         llvm::SmallVector<char, 0> bytes;
         if (!compiled || !generate(*compiled, *machine, llvm::CodeGenFileType::ObjectFile, bytes, error))
             return nullptr;
         return std::make_unique<llvm::SmallVectorMemoryBuffer>(std::move(bytes), module_.name, false);
+    }
+
+    /// The words and what LLVM makes of them need as much memory again as the instructions.
+    void releaseInterpreted(const std::vector<uint32_t>& routines) {
+        for (const uint32_t routine : routines) {
+            if (!options_.release || !isInterpreted(module_, module_.routines[routine], options_)) continue;
+            released_[routine] = true;
+            options_.release(routine);
+        }
     }
 
     static constexpr int kInternalError = 2;
@@ -228,6 +241,7 @@ class LazyProgram : public JitProgram {
     std::unique_ptr<llvm::orc::LocalTrampolinePool<ReentryAbi>> trampolines_;
     std::unordered_map<uint64_t, uint32_t> byTrampoline_;
     std::vector<bool> prepared_; ///< used by the compiling thread
+    std::vector<bool> released_; ///< as well: their instructions are gone, the code remains
     std::shared_ptr<const std::vector<bool>> settingTaskFrame_;
     const rt::ProgramDesc* program_ = nullptr;
     std::mutex mutex_; ///< of what follows

@@ -1,5 +1,5 @@
 #pragma once
-// The instructions of a routine: a list that grows without copying what it holds, since programs have millions of them.
+// The instructions and blocks of a routine: a list that grows without copying what it holds, since programs have millions of them.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +47,8 @@ template <class T> class PieceList {
     bool empty() const { return size_ == 0; }
     T& operator[](size_t i) { return pieces_[i / kPiece][i % kPiece]; }
     const T& operator[](size_t i) const { return pieces_[i / kPiece][i % kPiece]; }
+    T& back() { return (*this)[size_ - 1]; }
+    const T& back() const { return (*this)[size_ - 1]; }
     iterator begin() { return {this, 0}; }
     iterator end() { return {this, size_}; }
     const_iterator begin() const { return {this, 0}; }
@@ -60,6 +62,14 @@ template <class T> class PieceList {
         }
         pieces_.back().push_back(std::move(element));
         ++size_;
+    }
+
+    /// Keeps the first `count` elements, at most as many as there are.
+    void truncate(size_t count) {
+        pieces_.resize((count + kPiece - 1) / kPiece);
+        if (count % kPiece != 0)
+            pieces_.back().erase(pieces_.back().begin() + count % kPiece, pieces_.back().end());
+        size_ = count;
     }
 
   private:

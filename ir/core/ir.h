@@ -217,7 +217,7 @@ struct Routine {
     std::vector<Param> params;
     std::vector<Local> locals;
     PieceList<Inst> insts;
-    std::vector<Block> blocks; ///< block 0 is the entry
+    PieceList<Block> blocks; ///< block 0 is the entry
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     /// When one of them is not empty: numbers the handler takes, from any depth of calls and from interrupt routines; as

@@ -114,15 +114,16 @@ class Simplifier {
     void removeUnreachable() {
         Cfg cfg = buildCfg(module_, routine_, HandlerEdges::Yes);
         std::vector<BlockId> renumbered(routine_.blocks.size(), kNone);
-        std::vector<Block> kept;
+        BlockId kept = 0;
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             if (!cfg.reachable(b)) continue;
-            renumbered[b] = static_cast<BlockId>(kept.size());
-            kept.push_back(routine_.blocks[b]);
+            renumbered[b] = kept;
+            if (kept != b) routine_.blocks[kept] = std::move(routine_.blocks[b]);
+            ++kept;
         }
-        if (kept.size() == routine_.blocks.size()) return;
+        if (kept == routine_.blocks.size()) return;
+        routine_.blocks.truncate(kept);
         redirect([&](BlockId b) { return renumbered[b]; });
-        routine_.blocks = std::move(kept);
     }
 
     const Module& module_;

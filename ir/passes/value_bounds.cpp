@@ -53,14 +53,15 @@ double largest(TypeId type) {
 }
 
 ValueBounds::ValueBounds(const Module& module, const Routine& routine)
-    : module_(module), routine_(routine), lossy_(routine.insts.size(), false),
-      bound_(routine.insts.size(), {kUnbounded, false}), known_(routine.insts.size()),
-      local_(routine.locals.size()) {
+    : module_(module), routine_(routine), lossy_(routine.insts.size(), false), local_(routine.locals.size()) {
     for (const Block& block : routine_.blocks)
         for (const ValueId id : block.insts)
             noteUses(inst(id));
     if (routine_.insts.size() <= kLongRoutine) findPrivateLocals();
     std::vector<BlockId> order = buildCfg(module_, routine_, HandlerEdges::Yes).order;
+    // After the graph, which needs as much memory, is gone.
+    bound_.assign(routine_.insts.size(), {kUnbounded, false});
+    known_.resize(routine_.insts.size());
     std::vector<bool> seen(routine_.blocks.size(), false);
     for (const BlockId b : order)
         seen[b] = true;

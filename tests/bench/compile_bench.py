@@ -88,7 +88,7 @@ HUGE = {
     "MoveL to one target": (100_000, lambda n: "    MoveL p, v500, z10, tool0;\n" * n),
     "MoveL to named targets": (100_000, lambda n: "".join(f"    MoveL p{i}, v500, z10, tool0;\n" for i in range(n))),
     "MoveL of real programs": (3_500, lambda n: "".join(f"    MoveL p{i}, v500, z10, tool0;\n" for i in range(n))),
-    "assignments": (200_000, lambda n: "    x := x * 3 + 1;\n" * n),
+    "assignments": (1_000_000, lambda n: "    x := x * 3 + 1;\n" * n),
     "compact IF": (200_000, lambda n: "    IF x = 5 x := 4;\n" * n),
     "ELSEIF": (500_000, lambda n: branches("    IF x = 0 THEN\n      x := 1;\n", "    ELSEIF x = {0} THEN\n", n, "    ENDIF\n")),
     "CASE": (500_000, lambda n: branches("    TEST x\n", "    CASE {0}:\n", n, "    ENDTEST\n")),

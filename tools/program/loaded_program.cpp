@@ -6,6 +6,7 @@
 #include "runtime/host/unit_loader.h"
 #include "stdlib/native_table.h"
 #include "stdlib/standard_library.h"
+#include "tools/program/drop_program.h"
 #include "tools/program/module_store.h"
 #include "tools/program/native_library.h"
 #include "tools/program/program_sources.h"
@@ -26,10 +27,11 @@ bool LoadedProgram::compile(const CompileSettings& settings, std::string& error)
     if (compilation_->sink.hasErrors() ||
         !lowerToIr(*compilation_, settings.name, settings.stepping, module_, options_.partsAbove + 1))
         return false;
+    sources_ = sourcesOf(*compilation_, settings.stepping, settings.optimise);
+    if (!settings.keepsProgram) dropProgram(*compilation_); // generating code needs as much memory again
     runPassesInParts(options_, module_, irPasses(*compilation_, settings.stepping));
     code_ = codegen::jit(module_, options_, nativeSymbols(), error);
     if (!code_) return false;
-    sources_ = sourcesOf(*compilation_, settings.stepping, settings.optimise);
     compiler_ = std::make_unique<SourceCompiler>(*sources_);
     loader_ = std::make_unique<rt::UnitLoader>(*compiler_, rt::findNativeAddress);
     return true;

@@ -5,7 +5,7 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/program_sources.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/drop_program.h"
+#include "tools/program/drop_program.h"
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"

@@ -5,7 +5,6 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/run_setup.h"
 #include "tools/rapidc/commands.h"
-#include "tools/rapidc/drop_program.h"
 #include "tools/rapidc/line_debugger.h"
 
 #include "config/temporary.h"
@@ -107,22 +106,20 @@ int run(RunSettings& settings) {
                         (!settings.options.state.empty() && !settings.noStepping);
     compilation->callsByName = settings.interactive;
     const std::string home = compilation->homeFolder;
-    Compilation& checked = *compilation;
     LoadedProgram program(std::move(compilation));
-    const bool compiled =
-        program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
-                         .stepping = settings.stepping,
-                         .optimise = !settings.noOptimise,
-                         .inParts = settings.inParts,
-                         .interpreted = settings.interpreted,
-                         .executedOnce = settings.options.cycles == 1 && !settings.stepping},
-                        error);
+    const bool compiled = program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
+                                           .stepping = settings.stepping,
+                                           .optimise = !settings.noOptimise,
+                                           .inParts = settings.inParts,
+                                           .interpreted = settings.interpreted,
+                                           .executedOnce = settings.options.cycles == 1 && !settings.stepping,
+                                           .keepsProgram = settings.interactive},
+                                          error);
     printDiagnostics(program.compilation());
     if (!compiled) {
         if (!error.empty()) fmt::print(stderr, "rapidc run: {}\n", error);
         return static_cast<int>(rt::ExitStatus::BadProgram);
     }
-    if (!settings.interactive) dropProgram(checked);
     // The configuration is in the program already; reading it twice would define every signal twice.
     settings.options.configFiles.clear();
     rapid::config::TemporaryFolder folder;

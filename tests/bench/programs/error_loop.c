@@ -2,10 +2,10 @@
 #include <stdio.h>
 
 typedef enum { OK, EMPTY = 11, JAMMED = 12, RANGE = 13 } status;
-static int level = 20, jam, refills, skipped, passed_on;
+static float level = 20, jam, refills, skipped, passed_on;
 
 // Takes parts out of the magazine; fails when it is empty or jammed.
-static status feed(int amount) {
+static status feed(float amount) {
     if (jam > 0) {
         jam = jam - 1;
         return JAMMED;
@@ -16,7 +16,7 @@ static status feed(int amount) {
 }
 
 // Mends what it can: an empty magazine is filled, a jammed part is put back.
-static status supply(int amount) {
+static status supply(float amount) {
     status result = feed(amount);
     while (result == EMPTY) {
         level = level + 37;
@@ -29,18 +29,18 @@ static status supply(int amount) {
     } else if (result != OK) {
         return result;
     }
-    if (level % 13 == 5) jam = 2;
+    if ((int)level % 13 == 5) jam = 2;
     return OK;
 }
 
-static status checked(int value, int* result) {
+static status checked(float value, float* result) {
     if (value > 90) return RANGE;
     *result = value > 80 ? 80 : value * 2;
     return OK;
 }
 
-static int measured(int value) {
-    int result;
+static float measured(float value) {
+    float result;
     if (checked(value, &result) != OK) {
         passed_on = passed_on + 1;
         return -1;
@@ -49,13 +49,13 @@ static int measured(int value) {
 }
 
 int main(void) {
-    int seed = 1, sum = 0;
+    float seed = 1, sum = 0;
     for (int pass = 1; pass <= 2; pass++)
         for (int n = 1; n <= 8000000; n++) {
-            seed = (seed * 137 + 29) % 30011;
-            if (supply(seed % 7 + 1) != OK) return 1;
-            sum = (sum + measured((seed + level) % 101)) % 99991;
+            seed = (float)((int)(seed * 137 + 29) % 30011);
+            if (supply((float)((int)seed % 7 + 1)) != OK) return 1;
+            sum = (float)((int)(sum + measured((float)((int)(seed + level) % 101))) % 99991);
         }
-    printf("level %d sum %d\nrefills %d skipped %d\npassed on %d\n", level, sum, refills, skipped, passed_on);
+    printf("level %.0f sum %.0f\nrefills %.0f skipped %.0f\npassed on %.0f\n", level, sum, refills, skipped, passed_on);
     return 0;
 }
