@@ -111,6 +111,13 @@ bool OptimalPlan::plan(Course& course, const Route& route, double now, double ch
         Course candidate = course;
         if (planFrom(candidate, route, begun, share) && (keepsTicks_ || !found)) found = std::move(candidate);
     }
+    // At this moment the plan may be so close to a limit that no other one begins there: a little later, before the change.
+    constexpr double kLater = 0.008; // s
+    const double last = isSameShare ? std::min(course.plannedTimeAt(changed), course.plannedEnd()) : begun;
+    for (double later = kLater; !found && begun + later < last; later += kLater) {
+        Course candidate = course;
+        if (planFrom(candidate, route, begun + later, share)) found = std::move(candidate);
+    }
     if (!found) return false;
     course = std::move(*found);
     share_ = share;

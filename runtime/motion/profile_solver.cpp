@@ -31,6 +31,49 @@ Range rangeOf(double factor, double constant, double up, double down) {
     return {std::min(a, b), std::max(a, b)};
 }
 
+/// Of the terms of a cell: parts of the matrix, and of the right side with the sign reversed.
+struct TermSums {
+    std::array<double, 3> diagonal{}, right{};
+    std::array<double, 2> next{};
+    double second = 0;
+};
+
+/// Adds what a term contributes to the three coefficients of its cell.
+template <class Term> void addTo(TermSums& sums, Term& term, double target) {
+    term.inverse = 1.0 / term.slack;
+    const auto ratio = term.force * term.inverse;
+    const auto pull = target * term.inverse + ratio * (term.value + term.slack);
+    // The gradients of both sides are row + fall * square and -row + fall * square.
+    const double both = ratio[0] + ratio[1];
+    const double odd = pull[0] - pull[1];
+    const Three& r = term.row;
+    Three even{both * r[0], both * r[1], both * r[2]}; // times row
+    Three shift{odd * r[0], odd * r[1], odd * r[2]};
+    if (term.isJerk) {
+        const double difference = ratio[0] - ratio[1];
+        const double push = pull[0] + pull[1];
+        Three q{}, cross{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            q[k] = term.fall * term.square[k];
+            even[k] += difference * q[k];
+            cross[k] = difference * r[k] + both * q[k];
+            shift[k] += push * q[k];
+        }
+        for (std::size_t k = 0; k < 3; ++k)
+            sums.diagonal[k] += cross[k] * q[k];
+        sums.next[0] += cross[0] * q[1];
+        sums.next[1] += cross[1] * q[2];
+        sums.second += cross[0] * q[2];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        sums.diagonal[k] += even[k] * r[k];
+        sums.right[k] += shift[k];
+    }
+    sums.next[0] += even[0] * r[1];
+    sums.next[1] += even[1] * r[2];
+    sums.second += even[0] * r[2];
+}
+
 } // namespace
 
 ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells, const ProfileStart& start,
@@ -368,41 +411,19 @@ void ProfileSolver::assemble(double target) {
         diagonal_[i] = -1.5 * slope / coefficient_[i] + ratio;
         right_[i] = -slope - target / capSlack_[i] - ratio * miss;
     }
-    for (Term& term : terms_) {
-        term.inverse = 1.0 / term.slack;
-        const Pair ratio = term.force * term.inverse;
-        const Pair pull = target * term.inverse + ratio * (term.value + term.slack);
-        // The gradients of both sides are row + fall * square and -row + fall * square.
-        const double both = ratio[0] + ratio[1];
-        const double odd = pull[0] - pull[1];
-        const Three& r = term.row;
-        double* diagonal = &diagonal_[term.at];
-        double* right = &right_[term.at];
-        Three even{both * r[0], both * r[1], both * r[2]}; // times row
-        Three shift{odd * r[0], odd * r[1], odd * r[2]};
-        Three q{}, cross{};
-        if (term.isJerk) {
-            const double difference = ratio[0] - ratio[1];
-            const double push = pull[0] + pull[1];
-            for (std::size_t k = 0; k < 3; ++k) {
-                q[k] = term.fall * term.square[k];
-                even[k] += difference * q[k];
-                cross[k] = difference * r[k] + both * q[k];
-                shift[k] += push * q[k];
-            }
-            for (std::size_t k = 0; k < 3; ++k)
-                diagonal[k] += cross[k] * q[k];
-            next_[term.at] += cross[0] * q[1];
-            next_[term.at + 1] += cross[1] * q[2];
-            second_[term.at] += cross[0] * q[2];
-        }
+    // The terms of a cell follow each other: their sums are added once.
+    for (std::size_t i = 0; i < terms_.size();) {
+        const std::size_t at = terms_[i].at;
+        TermSums sums;
+        for (; i < terms_.size() && terms_[i].at == at; ++i)
+            addTo(sums, terms_[i], target);
         for (std::size_t k = 0; k < 3; ++k) {
-            diagonal[k] += even[k] * r[k];
-            right[k] -= shift[k];
+            diagonal_[at + k] += sums.diagonal[k];
+            right_[at + k] -= sums.right[k];
         }
-        next_[term.at] += even[0] * r[1];
-        next_[term.at + 1] += even[1] * r[2];
-        second_[term.at] += even[0] * r[2];
+        next_[at] += sums.next[0];
+        next_[at + 1] += sums.next[1];
+        second_[at] += sums.second;
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (fixed_[i] == 0) continue;

@@ -16,6 +16,17 @@ std::string axisName(int joint) {
     return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
 }
 
+bool isIdentity(const Pose& pose) {
+    const Vec3& p = pose.pos;
+    const Quat& q = pose.rot;
+    return p.x == 0 && p.y == 0 && p.z == 0 && q.w == 1 && q.x == 0 && q.y == 0 && q.z == 0;
+}
+
+/// `a * b`. Most frames are identities: planning asks for frames at thousands of places.
+Pose chained(const Pose& a, const Pose& b) {
+    return isIdentity(a) ? b : isIdentity(b) ? a : a * b;
+}
+
 } // namespace
 
 MotionError targetError(const robot::IkError& error, const Vec3& position) {
@@ -37,19 +48,21 @@ Pose FrameSetup::object(const ExternalAxes& axes, const Pose* user) const {
     const Pose frame = user != nullptr        ? *user
                        : userMover == nullptr ? workObject.uframe
                                               : userMover->frame(axes);
-    return frame * workObject.oframe * displacement;
+    return chained(chained(frame, workObject.oframe), displacement);
 }
 
 Pose FrameSetup::toFlange(const Pose& target, const ExternalAxes& axes, const Pose* user) const {
-    const Pose place = object(axes, user) * target;
-    if (tool.robotHeld) return inverse(base(axes)) * place * inverse(tool.tframe);
+    const Pose place = chained(object(axes, user), target);
+    const Pose world = inverse(base(axes));
+    if (tool.robotHeld) return chained(chained(world, place), inverse(tool.tframe));
     // The robot holds the work object: uframe counts from the flange and the tool is fixed in world.
-    return inverse(base(axes)) * tool.tframe * inverse(place);
+    return chained(chained(world, tool.tframe), inverse(place));
 }
 
 Pose FrameSetup::fromFlange(const Pose& flange, const ExternalAxes& axes, const Pose* user) const {
-    if (tool.robotHeld) return inverse(object(axes, user)) * base(axes) * flange * tool.tframe;
-    return inverse(object(axes, user)) * inverse(base(axes) * flange) * tool.tframe;
+    const Pose world = chained(base(axes), flange);
+    const Pose object = inverse(this->object(axes, user));
+    return chained(chained(object, tool.robotHeld ? world : inverse(world)), tool.tframe);
 }
 
 Pose FrameSetup::tcpInWorld(const Pose& flange, const ExternalAxes& axes) const {
