@@ -16,7 +16,6 @@
 #include "codegen/budget_loops.h"
 #include "codegen/cold_constants.h"
 #include "codegen/constant_calls.h"
-#include "codegen/constant_divisions.h"
 #include "codegen/finite_sums.h"
 #include "codegen/huge_routines.h"
 #include "codegen/integral_numbers.h"
@@ -29,6 +28,7 @@
 #include "codegen/slow_ways.h"
 #include "codegen/small_copies.h"
 #include "codegen/unchecked_rounds.h"
+#include "codegen/whole_divisions.h"
 
 namespace codegen {
 
@@ -136,7 +136,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
             passes.addPass(llvm::createFunctionToLoopPassAdaptor(llvm::LoopFullUnrollPass(2)));
         });
     builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
-        passes.addPass(ConstantDivisions());
+        passes.addPass(WholeDivisions());
         passes.addPass(BudgetLoops());
         passes.addPass(UncheckedRounds());
     });
@@ -172,10 +172,14 @@ std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOption
 bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMachine& machine,
             std::string& error) {
     const bool huge = spareHugeRoutines(module);
-    if (!options.optimise) return true;
+    if (!options.optimise) {
+        replaceWholeDivisions(module);
+        return true;
+    }
     if (!linkNativeBodies(module, options.bodies, error)) return false;
     discountColdCalls(module);
     optimise(module, machine);
+    replaceWholeDivisions(module);
     for (llvm::Function& function : module) {
         if (!function.hasFnAttribute(kPaced)) continue;
         function.addFnAttr(llvm::Attribute::OptimizeNone);

@@ -4,6 +4,7 @@
 
 #include "codegen/finite_sums.h"
 #include "codegen/routine_emitter.h"
+#include "codegen/whole_divisions.h"
 #include "ir/core/op_info.h"
 
 namespace codegen {
@@ -33,6 +34,8 @@ llvm::Value* RoutineEmitter::floatArithmetic(const ir::Inst& inst) {
     case ir::FloatOp::FDiv: return b_.CreateFDiv(a, operand(inst, 1));
     case ir::FloatOp::FNeg: return b_.CreateFNeg(a);
     case ir::FloatOp::FTrunc: return b_.CreateUnaryIntrinsic(llvm::Intrinsic::trunc, a);
+    case ir::FloatOp::FQuot: return createWholeDivision(b_, WholeDivision::Quotient, a, operand(inst, 1));
+    case ir::FloatOp::FRem: return createWholeDivision(b_, WholeDivision::Remainder, a, operand(inst, 1));
     }
     return nullptr;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "codegen/preserved.h"
+#include "codegen/whole_divisions.h"
 
 namespace codegen {
 namespace {
@@ -33,7 +34,9 @@ bool hasOperation(const llvm::Instruction& inst) {
     case llvm::Instruction::FPTrunc:
     case llvm::Instruction::SIToFP:
     case llvm::Instruction::UIToFP: return true;
-    default: return match(&inst, m_Intrinsic<llvm::Intrinsic::trunc>()) || match(&inst, m_FAbs(m_Value()));
+    default:
+        return match(&inst, m_Intrinsic<llvm::Intrinsic::trunc>()) || match(&inst, m_FAbs(m_Value())) ||
+               isWholeDivision(inst);
     }
 }
 
@@ -60,7 +63,7 @@ bool IntegralNumbers::contains(const Value* value) const {
 /// Whether the instruction gives such a number, by what is known so far.
 bool IntegralNumbers::isMade(const llvm::Instruction& inst) const {
     if (llvm::isa<llvm::SIToFPInst, llvm::UIToFPInst>(inst) ||
-        match(&inst, m_Intrinsic<llvm::Intrinsic::trunc>()))
+        match(&inst, m_Intrinsic<llvm::Intrinsic::trunc>()) || isWholeDivision(inst))
         return true;
     if (llvm::isa<llvm::SelectInst>(inst))
         return contains(inst.getOperand(1)) && contains(inst.getOperand(2));

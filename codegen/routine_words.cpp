@@ -26,6 +26,8 @@ rt::WordOp floatOp(ir::FloatOp op) {
     case ir::FloatOp::FDiv: return rt::WordOp::FDiv;
     case ir::FloatOp::FNeg: return rt::WordOp::FNeg;
     case ir::FloatOp::FTrunc: return rt::WordOp::FTrunc;
+    case ir::FloatOp::FQuot: return rt::WordOp::FQuot;
+    case ir::FloatOp::FRem: return rt::WordOp::FRem;
     }
     return rt::WordOp::Unreachable;
 }

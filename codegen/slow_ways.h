@@ -5,7 +5,7 @@
 
 namespace codegen {
 
-/// A branch on a phi node that is true from every way but one (ConstantDivisions makes such) moves to the end of that way.
+/// A branch on a phi node that is true from every way but one (WholeDivisions makes such) moves to the end of that way.
 class SlowWays : public llvm::PassInfoMixin<SlowWays> {
   public:
     llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses);

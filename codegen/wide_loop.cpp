@@ -19,7 +19,7 @@ constexpr unsigned kBytesAtOnce = 128;
 constexpr unsigned kRegister = 16;
 
 bool isVectorOp(Op op) {
-    if (ir::familyOf(op) == ir::Family::Float) return op != Op::FTrunc;
+    if (ir::familyOf(op) == ir::Family::Float) return op != Op::FTrunc && op != Op::FQuot && op != Op::FRem;
     return op == Op::FWiden || op == Op::FNarrow;
 }
 
@@ -383,7 +383,9 @@ llvm::Value* RoutineEmitter::wideValue(const WideLoop& wide, ir::ValueId id, Val
     case ir::FloatOp::FMul: return b_.CreateFMul(operand(0), operand(1));
     case ir::FloatOp::FDiv: return b_.CreateFDiv(operand(0), operand(1));
     case ir::FloatOp::FNeg: return b_.CreateFNeg(operand(0));
-    case ir::FloatOp::FTrunc: break; // not among those that plan() takes
+    case ir::FloatOp::FTrunc:
+    case ir::FloatOp::FQuot:
+    case ir::FloatOp::FRem: break; // not among those that plan() takes
     }
     return nullptr;
 }

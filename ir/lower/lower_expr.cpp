@@ -130,49 +130,15 @@ ir::ValueId RoutineLowering::lowerArithmetic(BinaryOp op, ValueId a, ValueId b, 
     }
 }
 
-/// DIV and MOD: integer operands only (manual 1.3.1, note 3). The quotient of two exact integers is truncated
-/// correctly by the rounded division, because it differs from any integer by more than half a unit in the last place. That
-/// holds for dividends whose neighbours are exact; a larger one of MOD is replaced by its remainder, which has the same one.
+/// DIV and MOD: integer operands only (manual 1.3.1, note 3).
 ir::ValueId RoutineLowering::lowerIntegerDivision(bool modulo, ValueId a, ValueId b, bool isDnum) {
     const ValueId zero = isDnum ? b_.constF64(0) : b_.constF32(0);
     const int32_t notInteger = program_.errorNumber(LanguageError::NotWhole);
     b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber(LanguageError::Divisor));
     if (routine_.insts[b].op != Op::Const)
         b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, b), b), notInteger);
-    if (modulo) {
-        a = replaceLarge(a, Support::rt_wholeRemainder, a, b);
-        b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, a), a), notInteger);
-        const ValueId quotient = b_.unary(Op::FTrunc, b_.binary(Op::FDiv, a, b));
-        return b_.binary(Op::FSub, a, b_.binary(Op::FMul, quotient, b));
-    }
     b_.check(b_.binary(Op::FEq, b_.unary(Op::FTrunc, a), a), notInteger);
-    return replaceLarge(b_.unary(Op::FTrunc, b_.binary(Op::FDiv, a, b)), Support::rt_wholeQuotient, a, b);
-}
-
-/// `value`, or what `native` makes of a and b when a is beyond the numbers whose neighbours are exact. A constant divisor is
-/// left alone: the guard would keep loops of such divisions from being computed with integers.
-ir::ValueId RoutineLowering::replaceLarge(ValueId value, Support native, ValueId a, ValueId b) {
-    const ir::TypeId type = routine_.insts[value].type;
-    const bool isDnum = type == ir::kF64;
-    const double most = isDnum ? 0x1p53 : 0x1p24;
-    const ir::Inst& dividend = routine_.insts[a];
-    const bool isSmall = dividend.op == Op::Const && std::abs(dividend.number) <= most;
-    if (isSmall || routine_.insts[b].op == Op::Const) return value;
-    const auto wide = [&](ValueId it) { return isDnum ? it : b_.convert(Op::FWiden, ir::kF64, it); };
-    const uint32_t result = temp(type);
-    const ir::BlockId large = b_.addBlock("large"), end = b_.addBlock("divided");
-    b_.store(type, value, b_.localAddr(result));
-    const auto limit = [&](double at) {
-        return isDnum ? b_.constF64(at) : b_.constF32(static_cast<float>(at));
-    };
-    const ValueId notAbove = b_.binary(Op::FLe, a, limit(most));
-    b_.condBr(b_.binary(Op::And, notAbove, b_.binary(Op::FGe, a, limit(-most))), end, large);
-    b_.setBlock(large);
-    const ValueId exact = b_.callNative(program_.support(native), {wide(a), wide(b)});
-    b_.store(type, isDnum ? exact : b_.convert(Op::FNarrow, ir::kF32, exact), b_.localAddr(result));
-    b_.br(end);
-    b_.setBlock(end);
-    return b_.load(type, b_.localAddr(result));
+    return b_.binary(modulo ? Op::FRem : Op::FQuot, a, b);
 }
 
 ir::ValueId RoutineLowering::lowerComparison(const BinaryExpr& expr) {

@@ -189,7 +189,6 @@ class RoutineLowering {
     ValueId lowerBinary(const syntax::BinaryExpr& expr);
     ValueId lowerArithmetic(syntax::BinaryOp op, ValueId a, ValueId b, bool isDnum);
     ValueId lowerIntegerDivision(bool modulo, ValueId a, ValueId b, bool isDnum);
-    ValueId replaceLarge(ValueId value, Support native, ValueId a, ValueId b);
     ValueId lowerComparison(const syntax::BinaryExpr& expr);
     ValueId lowerEquality(const Expr& left, const Expr& right);
     ValueId equalPlaces(ValueId a, ValueId b, const sema::DataType& type);

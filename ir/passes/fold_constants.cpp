@@ -30,6 +30,10 @@ bool keep(uint64_t value, Constant& out) {
     return true;
 }
 
+/// Whole numbers up to here are exact.
+template <class Float>
+constexpr Float kMostExact = sizeof(Float) == sizeof(float) ? Float(0x1p24) : Float(0x1p53);
+
 template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     auto a = static_cast<Float>(x), b = static_cast<Float>(y);
     switch (op) {
@@ -39,6 +43,9 @@ template <class Float> double floatArithmetic(FloatOp op, double x, double y) {
     case FloatOp::FDiv: return b == 0 ? std::nan("") : a / b;
     case FloatOp::FNeg: return -a;
     case FloatOp::FTrunc: return std::trunc(a);
+    case FloatOp::FQuot: // the ratio of exact numbers is rounded to no other whole number
+        return b == 0 || std::abs(a) > kMostExact<Float> ? std::nan("") : std::trunc(a / b);
+    case FloatOp::FRem: return b == 0 ? std::nan("") : std::fmod(a, b) + Float(0);
     }
     return std::nan("");
 }

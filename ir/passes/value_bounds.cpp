@@ -31,7 +31,7 @@ double roundedUp(TypeId type, double value) {
 /// An infinite operand makes the result infinite or NaN.
 bool keepsInfinity(Op op) {
     switch (familyOf(op)) {
-    case Family::Float: return op != Op::FTrunc;
+    case Family::Float: return op != Op::FTrunc && op != Op::FQuot && op != Op::FRem;
     case Family::Convert:
         return conversionOf(op).from == NumberClass::Float && conversionOf(op).to == NumberClass::Float;
     case Family::Logic: return op == Op::Select;
@@ -181,14 +181,13 @@ ValueBounds::Bound ValueBounds::boundOfFloat(const Inst& value) const {
     const Bound b = value.operands.size() > 1 ? taken(value.operands[1]) : Bound{};
     switch (as<FloatOp>(value.op)) {
     case FloatOp::FAdd: return {rounded(type, a.magnitude + b.magnitude), a.whole && b.whole};
-    case FloatOp::FSub: {
-        const double difference = rounded(type, a.magnitude + b.magnitude);
-        return {std::min(difference, remainder(value)), a.whole && b.whole};
-    }
+    case FloatOp::FSub: return {rounded(type, a.magnitude + b.magnitude), a.whole && b.whole};
     case FloatOp::FMul: return {rounded(type, a.magnitude * b.magnitude), a.whole && b.whole};
     case FloatOp::FDiv: return {quotient(value), false};
     case FloatOp::FNeg: return a;
     case FloatOp::FTrunc: return {a.magnitude, true};
+    case FloatOp::FQuot: return {quotient(value), true};
+    case FloatOp::FRem: return {std::min(a.magnitude, b.magnitude), true};
     }
     return {kUnbounded, false};
 }
@@ -209,25 +208,6 @@ bool ValueBounds::isZero(ValueId id) const {
 bool ValueBounds::isAtLeastOne(ValueId id) const {
     if (inst(id).op == Op::Const) return std::abs(inst(id).number) >= 1;
     return known_[id].notZero == block_ && taken(id).whole;
-}
-
-/// a - trunc(a / b) * b: hardly more than b. Rounding the quotient and the product adds less than the last two bits of a.
-double ValueBounds::remainder(const Inst& difference) const {
-    const ValueId a = difference.operands[0];
-    const Inst& product = inst(difference.operands[1]);
-    if (product.op != Op::FMul) return kUnbounded;
-    const ValueId b = product.operands[1];
-    const Inst& whole = inst(product.operands[0]);
-    if (whole.op != Op::FTrunc || !isAtLeastOne(b)) return kUnbounded;
-    const Inst& ratio = inst(whole.operands[0]);
-    if (ratio.op != Op::FDiv || ratio.operands[0] != a || ratio.operands[1] != b) return kUnbounded;
-    const TypeId type = valueType(difference);
-    int exponent = 0;
-    if (inst(b).op == Op::Const && std::frexp(std::abs(inst(b).number), &exponent) == 0.5)
-        return std::abs(inst(b).number); // nothing is rounded
-    const double lastBits = std::ldexp(taken(a).magnitude, type == kF32 ? -22 : -51);
-    const double most = taken(b).magnitude * 1.001 + lastBits;
-    return taken(a).magnitude + most <= largest(type) ? rounded(type, most) : kUnbounded;
 }
 
 ValueBounds::Bound ValueBounds::boundOfConversion(const Inst& value) const {

@@ -48,7 +48,6 @@ class ValueBounds {
     double quotient(const Inst& division) const;
     bool isZero(ValueId id) const;
     bool isAtLeastOne(ValueId id) const;
-    double remainder(const Inst& difference) const;
 
     const Module& module_;
     const Routine& routine_;

@@ -41,6 +41,8 @@ enum class WordOp : uint8_t {
     FDiv,
     FNeg,   ///< d, a
     FTrunc, ///< d, a
+    FQuot,  ///< of whole numbers (whole_division.h)
+    FRem,
     IAdd,
     ISub,
     IMul,

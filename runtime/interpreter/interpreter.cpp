@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/abi/whole_division.h"
 #include "runtime/interpreter/words.h"
 
 namespace rt {
@@ -379,6 +380,8 @@ Status Activation::run() {
         case WordOp::FDiv: at = floats(at, [](auto a, auto b) { return a / b; }); break;
         case WordOp::FNeg: at = oneFloat(at, [](auto a) { return -a; }); break;
         case WordOp::FTrunc: at = oneFloat(at, [](auto a) { return std::trunc(a); }); break;
+        case WordOp::FQuot: at = floats(at, [](auto a, auto b) { return wholeQuotient(a, b); }); break;
+        case WordOp::FRem: at = floats(at, [](auto a, auto b) { return wholeRemainder(a, b); }); break;
         case WordOp::IAdd: at = naturals(at, [](uint64_t a, uint64_t b) { return a + b; }); break;
         case WordOp::ISub: at = naturals(at, [](uint64_t a, uint64_t b) { return a - b; }); break;
         case WordOp::IMul: at = naturals(at, [](uint64_t a, uint64_t b) { return a * b; }); break;

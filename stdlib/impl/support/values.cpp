@@ -1,6 +1,7 @@
 // Strings and values of any type for compiled code.
 
 #include "runtime/abi/support_natives.h"
+#include "runtime/abi/whole_division.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/inlined.h"
 
@@ -71,13 +72,11 @@ bool rt_anyEqual(const void* a, const void* b, const TypeDesc* type) {
     return sameValue(static_cast<const char*>(a), static_cast<const char*>(b), *type);
 }
 
-/// a - remainder is a multiple of b, so the quotient is whole; 64 bits of precision leave no doubt which number it is.
 double rt_wholeQuotient(double a, double b) {
-    const long double multiple = static_cast<long double>(a) - std::fmod(a, b);
-    return static_cast<double>(std::round(multiple / b));
+    return rt::wholeQuotient(a, b);
 }
 
 double rt_wholeRemainder(double a, double b) {
-    return std::fmod(a, b);
+    return rt::wholeRemainder(a, b);
 }
 }

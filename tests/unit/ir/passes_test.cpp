@@ -524,20 +524,25 @@ TEST_CASE("a quotient by a number without fraction is not larger", "[ir]") {
 }
 
 TEST_CASE("a remainder is as small as the divisor", "[ir]") {
-    // (n * 1000) MOD 7, as lowering writes it.
-    const std::string product = "    %7 = const f32 1000\n    %8 = fmul %5, %7\n";
-    const std::string remainder =
-        "    %13 = const f32 7\n    %14 = fdiv %8, %13\n    %15 = ftrunc %14\n    %16 = fmul %15, %13\n";
-    CHECK(checksInLoop(product + remainder + "    %9 = fsub %8, %16\n") == 0);
-    CHECK(checksInLoop(product + remainder + "    %9 = fadd %8, %16\n") > 0);
-    // x MOD 8 of any x; with 7 the product may be rounded up beyond the largest number.
-    const auto ofAny = [](const std::string& divisor) {
-        return checksInLoop("    %13 = const f32 " + divisor +
-                            "\n    %14 = fdiv %6, %13\n    %15 = ftrunc %14\n    %16 = fmul %15, %13\n"
-                            "    %9 = fsub %6, %16\n");
+    const std::string product = "    %7 = const f32 1000\n    %8 = fmul %5, %7\n    %13 = const f32 7\n";
+    CHECK(checksInLoop(product + "    %9 = frem %8, %13\n") == 0); // (n * 1000) MOD 7
+    CHECK(checksInLoop(product + "    %14 = frem %8, %13\n    %9 = fadd %8, %14\n") > 0);
+    // x MOD c of any x, and of any c.
+    CHECK(checksInLoop("    %13 = const f32 7\n    %9 = frem %6, %13\n") == 0);
+    CHECK(checksInLoop("    %13 = const f32 7\n    %9 = frem %13, %6\n") == 0);
+}
+
+TEST_CASE("DIV and MOD of constants are computed where the constants are exact", "[ir]") {
+    const auto left = [](const std::string& a, const std::string& b) {
+        ir::Module module = run(body("f32", "    %0 = const f32 " + a + "\n    %1 = const f32 " + b +
+                                                "\n    %2 = fquot %0, %1\n    %3 = frem %0, %1\n"
+                                                "    %4 = fadd %2, %3\n    ret %4\n"),
+                                {"fold-constants"});
+        return count(module.routines[0], Op::FQuot) + count(module.routines[0], Op::FRem);
     };
-    CHECK(ofAny("8") == 0);
-    CHECK(ofAny("7") == 1);
+    CHECK(left("17", "5") == 0);
+    CHECK(left("33554432", "3") == 1); // 2^25: the ratio would be rounded to the next whole number
+    CHECK(left("17", "0") == 2);
 }
 
 TEST_CASE("natives are bounded as their declaration says", "[ir]") {
