@@ -35,6 +35,7 @@ void createRoutine(const RefactorPlace& place, Refactorings& out);
 void declareData(const RefactorPlace& place, Refactorings& out);
 void insertArguments(const RefactorPlace& place, Refactorings& out);
 void extractRoutine(const RefactorPlace& place, Refactorings& out);
+void teachValue(const RefactorPlace& place, Refactorings& out);
 void inlineConstant(const RefactorPlace& place, Refactorings& out);
 void convertData(const RefactorPlace& place, Refactorings& out);
 void sortTargets(const RefactorPlace& place, Refactorings& out);

@@ -14,8 +14,8 @@ std::vector<Refactoring> refactoringsAt(const Snapshot& snapshot, const FileView
     std::vector<Refactoring> out;
     if (file.isLibrary()) return out;
     const RefactorPlace place(snapshot, file, selection, cancel);
-    for (const auto& part : {createRoutine, declareData, insertArguments, extractRoutine, inlineConstant,
-                             convertData, sortTargets, addHandlers}) {
+    for (const auto& part : {createRoutine, declareData, insertArguments, extractRoutine, teachValue,
+                             inlineConstant, convertData, sortTargets, addHandlers}) {
         if (isCancelled(cancel)) break;
         part(place, out);
     }

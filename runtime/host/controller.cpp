@@ -57,12 +57,14 @@ Controller::Controller(const RunOptions& options)
       startCalendar_(static_cast<int64_t>(std::time(nullptr))), saver_(std::make_unique<ModuleSaver>(*this)),
       state_(std::make_unique<SavedState>(*this)) {
     log_.setClock([this] { return scheduler_.now(); });
-    scheduler_.setBeforeSleep([this] {
+    const auto completeOutputs = [this] {
         panel_.flush();
         log_.flush();
         for (const auto& action : sleepActions_)
             action();
-    });
+    };
+    scheduler_.setBeforeSleep(completeOutputs);
+    state_->setBeforeWriting(completeOutputs);
 }
 
 Controller::~Controller() {

@@ -234,7 +234,7 @@ bool SavedState::write() {
 
 void SavedState::write(const StateImage& image) {
     written_ = std::chrono::steady_clock::now();
-    controller_.panel().flush(); // the run that continues from here does not show earlier dialogs again
+    if (beforeWriting_) beforeWriting_();
     const std::string problem = rapid::config::replaceFile(path(), writeImage(image));
     if (!problem.empty() && !failed_) controller_.log().write(EventId::StateNotWritten, nullptr, {problem});
     failed_ = !problem.empty();

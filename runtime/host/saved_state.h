@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -85,6 +86,8 @@ class SavedState {
     /// Takes the folder, which is made when it does not exist. False with a message when that is not possible or when
     /// another process uses it.
     bool open(const std::string& folder, std::string& error);
+    /// Called before each writing: what the state remembers as done (a line of a file) must be on disk before the state is.
+    void setBeforeWriting(std::function<void()> action) { beforeWriting_ = std::move(action); }
     /// Takes over what an earlier run left; once tasks and signals exist and before anything runs. A file that cannot be
     /// understood is put aside, with an event; false with a message when one is there and cannot be read.
     bool restore(std::string& error);
@@ -123,6 +126,7 @@ class SavedState {
 
     Controller& controller_;
     std::string folder_;
+    std::function<void()> beforeWriting_;
     int lock_ = -1;
     bool remembered_ = false;
     bool failed_ = false; // writing failed, which was reported

@@ -441,6 +441,17 @@ class Actions(Language):
         errors = [d for d in self.client.published(self.document, 3) if d["severity"] == 1]
         self.assertEqual(errors, [])
 
+    def test_teach_a_value_into_a_persistent(self):
+        value = "[[400, 0, 500], [0, 0, 1, 0], [0, 0, 0, 0], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]]"
+        text = TEXT.replace('TPWrite "heavy"', f"MoveL {value}, v100, fine, tool0")
+        found = [a for a in self.actions(text, "400", only=["refactor.extract"]) if "PERS robtarget 'p10'" in a["title"]]
+        self.assertEqual(len(found), 1)
+        new = edited(text, changes_of(found[0]["edit"])[self.document])
+        self.assertIn(f"PERS robtarget p10:={value};", new)
+        self.assertIn("MoveL p10, v100", new)
+        self.client.change(self.document, 3, new)
+        self.assertEqual([d for d in self.client.published(self.document, 3) if d["severity"] == 1], [])
+
     def test_refactorings_are_offered(self):
         kinds = {a["kind"].split(".")[0] for a in self.actions(TEXT, "limit", only=["refactor"])}
         self.assertEqual(kinds, {"refactor"})

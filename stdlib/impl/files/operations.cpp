@@ -1,6 +1,7 @@
 // Manual 1.14, 1.16: copies, names, kinds, sizes and times of files.
 
 #include "stdlib/impl/files/open_files.h"
+#include "stdlib/impl/files/placed_file.h"
 #include "stdlib/impl/files/places.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/time/calendar.h"
@@ -36,12 +37,9 @@ int copyBytes(int from, int to, const struct stat& source) {
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return errno;
         if (count == 0) break;
-        for (ssize_t done = 0; done < count;) {
-            const ssize_t written = ::write(to, block.data() + done, static_cast<std::size_t>(count - done));
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) return written == 0 ? EIO : errno;
-            done += written;
-        }
+        if (const int problem = lib::writeAll(to, {block.data(), static_cast<std::size_t>(count)});
+            problem != 0)
+            return problem;
     }
     const timespec times[] = {source.st_atim, source.st_mtim};
     ::futimens(to, times);
@@ -57,13 +55,13 @@ int copyFile(const VolumePlace& from, const VolumePlace& to) {
     if (::fstat(source.number(), &status) != 0) return errno;
     if (S_ISDIR(status.st_mode)) return EISDIR;
     if (!S_ISREG(status.st_mode)) return EINVAL;
-    const Descriptor copy(::openat(to.folder.number(), to.name.c_str(),
-                                   O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW,
-                                   status.st_mode & 0777));
-    if (!copy.isOpen()) return errno;
-    const int problem = copyBytes(source.number(), copy.number(), status);
-    if (problem != 0) ::unlinkat(to.folder.number(), to.name.c_str(), 0);
-    return problem;
+    struct stat there{};
+    if (::fstatat(to.folder.number(), to.name.c_str(), &there, AT_SYMLINK_NOFOLLOW) == 0) return EEXIST;
+    lib::PlacedFile copy;
+    if (const int problem = copy.make(to); problem != 0) return problem;
+    if (const int problem = copyBytes(source.number(), copy.descriptor(), status); problem != 0)
+        return problem;
+    return copy.putNew(status.st_mode & 0777);
 }
 
 int renameFile(const VolumePlace& from, const VolumePlace& to) {

@@ -1,6 +1,7 @@
 #include "stdlib/impl/system/whole_file.h"
 
 #include "stdlib/impl/files/open_files.h"
+#include "stdlib/impl/files/placed_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,13 +14,13 @@ namespace rt::lib {
 namespace {
 
 /// An open file of a volume; `problem` says why there is none.
-Descriptor openWhole(Controller& controller, std::string_view path, int flags, std::string& problem) {
+Descriptor openWhole(Controller& controller, std::string_view path, std::string& problem) {
     OpenFiles::of(controller).flushAll(controller);
     VolumePlace place;
     problem = controller.volumes().locate(path, Volumes::LastLink::Follow, place);
     if (!problem.empty()) return {};
     Descriptor file(::openat(place.folder.number(), place.name.c_str(),
-                             flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666));
+                             O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY));
     struct stat status{};
     if (!file.isOpen() || ::fstat(file.number(), &status) != 0)
         problem = std::strerror(errno);
@@ -28,12 +29,26 @@ Descriptor openWhole(Controller& controller, std::string_view path, int flags, s
     return file;
 }
 
+/// Replaces the file in one step, so that a process that is killed leaves the old one or the new one. "" or the problem.
+std::string replaceIn(const VolumePlace& place, std::string_view bytes) {
+    struct stat old{};
+    const bool exists = ::fstatat(place.folder.number(), place.name.c_str(), &old, AT_SYMLINK_NOFOLLOW) == 0;
+    if (exists && !S_ISREG(old.st_mode)) return "it is not a file";
+    if (exists && ::faccessat(place.folder.number(), place.name.c_str(), W_OK, 0) != 0)
+        return std::strerror(errno);
+    PlacedFile file;
+    int error = file.make(place);
+    if (error == 0) error = writeAll(file.descriptor(), bytes);
+    if (error == 0) error = file.replace(exists ? old.st_mode & 07777 : PlacedFile::masked(0666));
+    return error == 0 ? std::string() : std::strerror(error);
+}
+
 } // namespace
 
 std::string readWhole(Controller& controller, std::string_view path, std::string& bytes) {
     constexpr std::size_t kMost = std::size_t{4} << 20;
     std::string problem;
-    const Descriptor file = openWhole(controller, path, O_RDONLY, problem);
+    const Descriptor file = openWhole(controller, path, problem);
     if (!problem.empty()) return problem;
     char block[16384];
     for (;;) {
@@ -47,15 +62,12 @@ std::string readWhole(Controller& controller, std::string_view path, std::string
 }
 
 std::string writeWhole(Controller& controller, std::string_view path, std::string_view bytes) {
-    std::string problem;
-    const Descriptor file = openWhole(controller, path, O_WRONLY | O_CREAT | O_TRUNC, problem);
-    while (problem.empty() && !bytes.empty()) {
-        const ssize_t count = ::write(file.number(), bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return count == 0 ? "the disk is full" : std::strerror(errno);
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return problem;
+    OpenFiles::of(controller).flushAll(controller);
+    VolumePlace place;
+    if (std::string problem = controller.volumes().locate(path, Volumes::LastLink::Follow, place);
+        !problem.empty())
+        return problem;
+    return replaceIn(place, bytes);
 }
 
 } // namespace rt::lib

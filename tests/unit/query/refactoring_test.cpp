@@ -198,3 +198,28 @@ TEST_CASE("query: add the handlers that a routine lacks, in their order", "[quer
     contains(after(all, "Add ERROR handler"), "TPErase;\nERROR\n   RAISE;\nUNDO\n");
     contains(after(all, "Add BACKWARD handler"), "TPErase;\nBACKWARD\n");
 }
+
+// Issue 19, code actions: "teach values into PERS". A value that is written out gets a name; PERS, so that ModPos can change it.
+TEST_CASE("query: a value that is written out becomes data", "[query][refactoring]") {
+    const Program p({"MODULE m\nCONST robtarget "
+                     "p10:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\n"
+                     "MoveL [[4$100,0,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n"
+                     "WaitTime $20.5$3;\nENDPROC\nENDMODULE\n"});
+    const std::string taught = after(p, "Teach the value into PERS robtarget 'p20'");
+    contains(taught, "PERS robtarget p20:=[[400,0,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n");
+    contains(taught, "MoveL p20,v100,fine,tool0;");
+    contains(after(p, "Extract constant 'p20'"), "CONST robtarget p20:=[[400,0,500]");
+    // A number only when it is selected as a whole.
+    CHECK(titles(p, "teach-value", 2, 2) == Lines{});
+    contains(after(p, "Teach the value into PERS num 'value1'", 2, 3), "PERS num value1:=0.5;\n");
+}
+
+TEST_CASE("query: values that must stay where they are", "[query][refactoring]") {
+    // Initial values and labels need constants; names may mean another thing in the module.
+    const Program p({"MODULE m\nVAR pos start:=[1$1,2,3];\nPROC main()\nVAR num i;\nVAR pos p:=[4$2,5,6];\n"
+                     "TEST i\nCASE $31$4:\ni:=2;\nENDTEST\np:=[i$5,2,3];\nENDPROC\nENDMODULE\n"});
+    CHECK(titles(p, "teach-value", 1, 1) == Lines{});
+    CHECK(titles(p, "teach-value", 2, 2) == Lines{});
+    CHECK(titles(p, "teach-value", 3, 4) == Lines{});
+    CHECK(titles(p, "teach-value", 5, 5) == Lines{});
+}

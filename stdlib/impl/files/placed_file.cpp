@@ -1,0 +1,53 @@
+#include "stdlib/impl/files/placed_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace rt::lib {
+
+int writeAll(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return count == 0 ? EIO : errno;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return 0;
+}
+
+mode_t PlacedFile::masked(mode_t mode) {
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return mode & ~mask;
+}
+
+int PlacedFile::make(const VolumePlace& place) {
+    place_ = &place;
+    folder_ = fmt::format("/proc/self/fd/{}", place.folder.number());
+    rapid::config::removeLeftovers(folder_);
+    return file_.make(folder_, place.name);
+}
+
+int PlacedFile::replace(mode_t mode) {
+    if (::fchmod(descriptor(), mode) != 0) return errno;
+    return file_.renameTo(folder_ + "/" + place_->name);
+}
+
+int PlacedFile::putNew(mode_t mode) {
+    if (::fchmod(descriptor(), masked(mode)) != 0) return errno;
+    const std::string own = fmt::format("/proc/self/fd/{}", descriptor());
+    if (::linkat(AT_FDCWD, own.c_str(), place_->folder.number(), place_->name.c_str(), AT_SYMLINK_FOLLOW) ==
+        0)
+        return 0;
+    if (errno == EEXIST) return errno;
+    // File systems without hard links: nothing was there a moment ago, which is as near as they come.
+    struct stat status{};
+    if (::fstatat(place_->folder.number(), place_->name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0)
+        return EEXIST;
+    return file_.renameTo(folder_ + "/" + place_->name);
+}
+
+} // namespace rt::lib
