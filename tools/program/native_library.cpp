@@ -49,9 +49,10 @@ void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, cons
         return findings.empty();
     };
     options.release = [&module](uint32_t routine) {
+        const bool huge = module.routines[routine].insts.size() >= kHuge;
         module.routines[routine].insts = {};
         module.routines[routine].blocks = {};
-        returnFreeMemory();
+        if (huge) returnFreeMemory();
     };
 }
 
