@@ -325,7 +325,7 @@ class Execution(PendantCase):
 
     def test_orders_for_the_pointer_one_after_the_other(self):  # docs/pendant.md: the last one counts, none is refused
         for _ in range(5):
-            self.page.call("run.pointerToLine", {**MAIN, "line": line_of("note := ValToStr")})
+            self.page.call("run.pointerToLine", {**MAIN, "line": line_of("TPReadFK answer")})
             self.page.call("run.pointerToRoutine", {**MAIN, "routine": "ask"})
             self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})
             self.page.call("run.pointerToMain")
