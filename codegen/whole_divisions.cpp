@@ -56,7 +56,7 @@ bool asksFor(const Value& value, WholeDivision wanted) {
     return callee && callee->getName() == nameOf(wanted, callee->getReturnType());
 }
 
-/// Calls with the same operands; the first of them comes before the others on every way.
+/// Calls with the same operands; the first of them dominates the others.
 using Group = std::vector<llvm::CallInst*>;
 
 struct Results {
@@ -98,7 +98,7 @@ class Expansion {
         return {quotient, remainder ? b_.CreateFSub(number_, b_.CreateFMul(quotient, divisor_)) : nullptr};
     }
 
-    /// A block that is executed when the condition holds, which is rare. The builder stands there.
+    /// A block that is executed when the condition holds, which is rare. The builder inserts there.
     llvm::Instruction* rarely(Value* condition, llvm::Instruction* before) {
         llvm::Instruction* end =
             llvm::SplitBlockAndInsertIfThen(condition, before->getIterator(), /*Unreachable=*/false,

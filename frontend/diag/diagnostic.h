@@ -58,7 +58,8 @@ struct Diagnostic {
     Code code{};
     Severity severity = Severity::Error;
     CauseId cause = CauseId::None; ///< of a check: for the last pass over the diagnostics
-    CauseId line = CauseId::None;  ///< cause of the report that its line lacks the semicolon: perhaps one mistake
+    CauseId line =
+        CauseId::None; ///< cause of the report that its line lacks the semicolon: perhaps one mistake
     std::shared_ptr<const SourceFile>
         file; ///< may be null: a message about the command line or a missing file
     SourceRange range;

@@ -1,11 +1,11 @@
 // rapidc build: a native executable that needs no rapidc.
 
 #include "runtime/host/command_line.h"
+#include "tools/program/drop_program.h"
 #include "tools/program/native_library.h"
 #include "tools/program/pipeline.h"
 #include "tools/program/program_sources.h"
 #include "tools/rapidc/commands.h"
-#include "tools/program/drop_program.h"
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"
