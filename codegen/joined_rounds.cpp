@@ -89,8 +89,8 @@ bool JoinedRounds::reaches(const ir::Routine& routine, ValueId value, uint32_t l
         }
         return false;
     }
-    const bool keeps = ir::familyOf(inst.op) == ir::Family::Float && inst.op != Op::FDiv &&
-                       inst.op != Op::FTrunc && inst.op != Op::FQuot && inst.op != Op::FRem;
+    const bool keeps =
+        ir::familyOf(inst.op) == ir::Family::Float && inst.op != Op::FDiv && !ir::dropsDecimals(inst.op);
     return keeps && std::any_of(inst.operands.begin(), inst.operands.end(),
                                 [&](ValueId id) { return reaches(routine, id, local); });
 }

@@ -19,7 +19,7 @@ constexpr unsigned kBytesAtOnce = 128;
 constexpr unsigned kRegister = 16;
 
 bool isVectorOp(Op op) {
-    if (ir::familyOf(op) == ir::Family::Float) return op != Op::FTrunc && op != Op::FQuot && op != Op::FRem;
+    if (ir::familyOf(op) == ir::Family::Float) return !ir::dropsDecimals(op);
     return op == Op::FWiden || op == Op::FNarrow;
 }
 

@@ -96,6 +96,10 @@ inline Family familyOf(Op op) {
 template <class FamilyOp> constexpr FamilyOp as(Op op) {
     return static_cast<FamilyOp>(op);
 }
+/// The result is a whole number: infinity and decimals of the operands do not show in it.
+constexpr bool dropsDecimals(Op op) {
+    return op == Op::FTrunc || op == Op::FQuot || op == Op::FRem;
+}
 /// Opcode for a textual name; false when there is none.
 bool opFromText(std::string_view text, Op& op);
 

@@ -101,7 +101,7 @@ class CheckMerger {
         const Inst& value = inst(id);
         switch (familyOf(value.op)) {
         case Family::Float:
-            if (value.op == Op::FTrunc || value.op == Op::FQuot || value.op == Op::FRem) return {};
+            if (dropsDecimals(value.op)) return {};
             return value.op == Op::FDiv ? OperandList{value.operands[0]} : value.operands;
         case Family::Convert:
             if (value.op == Op::FWiden || value.op == Op::FNarrow) return value.operands;

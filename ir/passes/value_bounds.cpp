@@ -31,7 +31,7 @@ double roundedUp(TypeId type, double value) {
 /// An infinite operand makes the result infinite or NaN.
 bool keepsInfinity(Op op) {
     switch (familyOf(op)) {
-    case Family::Float: return op != Op::FTrunc && op != Op::FQuot && op != Op::FRem;
+    case Family::Float: return !dropsDecimals(op);
     case Family::Convert:
         return conversionOf(op).from == NumberClass::Float && conversionOf(op).to == NumberClass::Float;
     case Family::Logic: return op == Op::Select;
