@@ -20,30 +20,12 @@ std::string failure(const char* verb, const std::string& path, int error) {
     return fmt::format("cannot {} '{}': {}", verb, path, std::strerror(error));
 }
 
-bool writeAll(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t done = ::write(file, bytes.data(), bytes.size());
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return false;
-        bytes.remove_prefix(static_cast<size_t>(done));
-    }
-    return true;
-}
-
-/// Permissions of the file that is replaced, or those of a new file.
-mode_t wantedMode(const struct stat* old) {
-    if (old) return old->st_mode & 07777;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return 0666 & ~mask;
-}
-
 /// Fills the open temporary file; 0 or the number of the error.
 int fill(int file, std::string_view bytes, const struct stat* old) {
-    if (!writeAll(file, bytes)) return errno;
+    if (const int error = writeAll(file, bytes); error != 0) return error;
     // Another owner can be kept by the superuser only; the content matters more.
     if (old && ::fchown(file, old->st_uid, old->st_gid) != 0) errno = 0;
-    if (::fchmod(file, wantedMode(old)) != 0) return errno;
+    if (::fchmod(file, old ? old->st_mode & 07777 : permissionsOfNew(0666)) != 0) return errno;
     return ::fsync(file) == 0 ? 0 : errno;
 }
 
@@ -55,6 +37,22 @@ void flushFolder(const std::string& folder) {
 }
 
 } // namespace
+
+int writeAll(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t done = ::write(file, bytes.data(), bytes.size());
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) return done == 0 ? EIO : errno;
+        bytes.remove_prefix(static_cast<size_t>(done));
+    }
+    return 0;
+}
+
+mode_t permissionsOfNew(mode_t mode) {
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return mode & ~mask;
+}
 
 std::string replaceFile(const std::string& path, std::string_view bytes) {
     std::error_code missing;

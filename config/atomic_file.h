@@ -4,7 +4,14 @@
 #include <string>
 #include <string_view>
 
+#include <sys/types.h>
+
 namespace rapid::config {
+
+/// Writes all bytes to an open file. 0 or the number of the error.
+[[nodiscard]] int writeAll(int file, std::string_view bytes);
+/// The permissions that open() gives to a new file of this mode.
+mode_t permissionsOfNew(mode_t mode);
 
 /// Writes `bytes` to a temporary file in the same folder, flushes it to the disk, renames it to `path` and flushes the
 /// folder. Permissions (and, where allowed, the owner) of an existing file are kept; through a symbolic link the file

@@ -1,5 +1,6 @@
 #include "runtime/host/rapidc_process.h"
 
+#include "config/atomic_file.h"
 #include "runtime/base/descriptor.h"
 
 #include <fmt/format.h>
@@ -18,14 +19,10 @@ extern char** environ;
 namespace rt {
 namespace {
 
-bool writeAll(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t done = ::write(file, bytes.data(), bytes.size());
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(done));
-    }
-    return ::lseek(file, 0, SEEK_SET) == 0;
+/// To be read from the beginning. 0 or the number of the error.
+int writeInput(int file, std::string_view bytes) {
+    if (const int error = rapid::config::writeAll(file, bytes); error != 0) return error;
+    return ::lseek(file, 0, SEEK_SET) == 0 ? 0 : errno;
 }
 
 std::string readAll(int file) {
@@ -50,9 +47,10 @@ RapidcAnswer askRapidc(std::vector<std::string> arguments, std::string_view inpu
     // Its output goes to memory: no process has to read while it writes.
     const Descriptor in{::memfd_create("input", MFD_CLOEXEC)}, out{::memfd_create("output", MFD_CLOEXEC)},
         said{::memfd_create("said", MFD_CLOEXEC)};
-    if (in.number() < 0 || out.number() < 0 || said.number() < 0 || !writeAll(in.number(), input)) {
+    const bool areOpen = in.number() >= 0 && out.number() >= 0 && said.number() >= 0;
+    if (const int error = areOpen ? writeInput(in.number(), input) : errno; error != 0) {
         answer.status = -1;
-        answer.error = errno;
+        answer.error = error;
         return answer;
     }
     posix_spawn_file_actions_t actions;

@@ -1,5 +1,6 @@
 #include "tools/service/folder_work.h"
 
+#include "config/atomic_file.h"
 #include "runtime/base/descriptor.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ namespace rapidc::service {
 
 namespace {
 
+using rapid::config::writeAll;
 using rt::Descriptor;
 
 constexpr int kMostDepth = 64; // folders in folders
@@ -29,16 +31,6 @@ constexpr std::size_t kBlock = std::size_t{1} << 18;
 std::string unfinishedName() {
     static std::atomic<unsigned> last = 0;
     return fmt::format(".upload.rapidc-{}-{:06}.tmp", ::getpid(), ++last % 1'000'000);
-}
-
-int writeAll(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return errno;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return 0;
 }
 
 int openNew(int folder, const std::string& name, Descriptor& file) {

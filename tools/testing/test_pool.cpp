@@ -1,5 +1,6 @@
 #include "tools/testing/test_pool.h"
 
+#include "config/atomic_file.h"
 #include "runtime/host/stop_signals.h"
 
 #include <fmt/format.h>
@@ -47,16 +48,6 @@ void closeAll(int (&fds)[kStreams][2]) {
             if (fd >= 0) close(fd);
 }
 
-bool writeAll(int fd, const std::string& bytes) {
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = write(fd, bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        done += static_cast<std::size_t>(count);
-    }
-    return true;
-}
-
 [[noreturn]] void executeTest(const TestCase& test, const TestBody& body, int (&fds)[kStreams][2]) {
     setpgid(0, 0); // Ctrl-C reaches the parent, which ends the tests
     dup2(fds[kOut][1], STDOUT_FILENO);
@@ -70,7 +61,7 @@ bool writeAll(int fd, const std::string& bytes) {
     const TestResult outcome = body(test);
     std::fflush(stdout);
     std::fflush(stderr);
-    std::_Exit(writeAll(result, pack(outcome)) ? 0 : 1);
+    std::_Exit(rapid::config::writeAll(result, pack(outcome)) == 0 ? 0 : 1);
 }
 
 class Pool {

@@ -1,5 +1,6 @@
 // Manual 1.14, 1.16: copies, names, kinds, sizes and times of files.
 
+#include "config/atomic_file.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/files/placed_file.h"
 #include "stdlib/impl/files/places.h"
@@ -37,7 +38,7 @@ int copyBytes(int from, int to, const struct stat& source) {
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return errno;
         if (count == 0) break;
-        if (const int problem = lib::writeAll(to, {block.data(), static_cast<std::size_t>(count)});
+        if (const int problem = rapid::config::writeAll(to, {block.data(), static_cast<std::size_t>(count)});
             problem != 0)
             return problem;
     }

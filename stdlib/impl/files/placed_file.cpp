@@ -1,5 +1,7 @@
 #include "stdlib/impl/files/placed_file.h"
 
+#include "config/atomic_file.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,22 +9,6 @@
 #include <cerrno>
 
 namespace rt::lib {
-
-int writeAll(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return count == 0 ? EIO : errno;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return 0;
-}
-
-mode_t PlacedFile::masked(mode_t mode) {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return mode & ~mask;
-}
 
 int PlacedFile::make(const VolumePlace& place) {
     place_ = &place;
@@ -37,7 +23,7 @@ int PlacedFile::replace(mode_t mode) {
 }
 
 int PlacedFile::putNew(mode_t mode) {
-    if (::fchmod(descriptor(), masked(mode)) != 0) return errno;
+    if (::fchmod(descriptor(), rapid::config::permissionsOfNew(mode)) != 0) return errno;
     const std::string own = fmt::format("/proc/self/fd/{}", descriptor());
     if (::linkat(AT_FDCWD, own.c_str(), place_->folder.number(), place_->name.c_str(), AT_SYMLINK_FOLLOW) ==
         0)

@@ -5,14 +5,11 @@
 #include "config/temporary.h"
 #include "runtime/host/volumes.h"
 
-#include <string_view>
+#include <string>
 
 #include <sys/stat.h>
 
 namespace rt::lib {
-
-/// Writes all bytes to an open file. 0 or the number of the error.
-int writeAll(int file, std::string_view bytes);
 
 class PlacedFile {
   public:
@@ -23,9 +20,6 @@ class PlacedFile {
     [[nodiscard]] int replace(mode_t mode);
     /// Puts it where nothing must be yet (EEXIST otherwise). `mode`: as in open(). 0 or the number of the error.
     [[nodiscard]] int putNew(mode_t mode);
-
-    /// The permissions that open() gives to a new file of this mode.
-    static mode_t masked(mode_t mode);
 
   private:
     rapid::config::TemporaryFile file_;

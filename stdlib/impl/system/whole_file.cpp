@@ -1,5 +1,6 @@
 #include "stdlib/impl/system/whole_file.h"
 
+#include "config/atomic_file.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/files/placed_file.h"
 
@@ -38,8 +39,9 @@ std::string replaceIn(const VolumePlace& place, std::string_view bytes) {
         return std::strerror(errno);
     PlacedFile file;
     int error = file.make(place);
-    if (error == 0) error = writeAll(file.descriptor(), bytes);
-    if (error == 0) error = file.replace(exists ? old.st_mode & 07777 : PlacedFile::masked(0666));
+    if (error == 0) error = rapid::config::writeAll(file.descriptor(), bytes);
+    if (error == 0)
+        error = file.replace(exists ? old.st_mode & 07777 : rapid::config::permissionsOfNew(0666));
     return error == 0 ? std::string() : std::strerror(error);
 }
 
