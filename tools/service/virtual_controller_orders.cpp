@@ -144,10 +144,7 @@ Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
 }
 
 Refusal VirtualController::stop(StopMode mode) {
-    if (isCursorOnItsWay()) {
-        std::erase_if(cursor_->next, [](const Cursor::Order& order) { return order.starts; });
-        return {};
-    }
+    if (cursor_) std::erase_if(cursor_->next, [](const Cursor::Order& order) { return order.starts; });
     if (!isRunning()) return {}; // it is what was asked for
     switch (mode) {
     case StopMode::Stop: core_->actionStop(); break;

@@ -159,6 +159,22 @@ TEST_CASE("the program pointer goes to a line of another routine", "[service]") 
     CHECK(served.ask([](VirtualController& c) { return c.pointerToLine(robotTask(c), "Cycle", 2); }) != "");
 }
 
+TEST_CASE("orders that follow a pointer to line wait until it is there", "[service]") {
+    Served served("MODULE Cycle\n  VAR num x := 0;\n  PROC main()\n    Stop;\n  ENDPROC\n  PROC other()\n    "
+                  "x := 1;\n    "
+                  "x := x + 10;\n    Stop;\n  ENDPROC\nENDMODULE\n",
+                  true);
+    REQUIRE(served.comes(isStopped));
+    const auto orders = [](VirtualController& c) -> std::string {
+        if (Refusal refusal = c.pointerToLine(robotTask(c), "Cycle", 8); !refusal.empty()) return refusal;
+        return c.start(ExecutionMode::Continue);
+    };
+    REQUIRE(served.ask(orders) == "");
+    CHECK(served.comes([](VirtualController& c) { return robotTask(c).place().line == 9; }));
+    REQUIRE(served.comes(isStopped));
+    CHECK(served.value("x") == "10"); // execution began in line 8
+}
+
 TEST_CASE("a restart keeps persistents; a cold one begins anew", "[service]") {
     Served served(kCounter);
     served.ask([](VirtualController& c) { return c.setMotors(true); });
