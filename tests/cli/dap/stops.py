@@ -313,8 +313,9 @@ def test_realtime_wait_can_be_paused(a):
 def test_condition_without_end(a):
     """pause ends the evaluation, and the program stops at the breakpoint."""
     line = line_of("part.modx", "! call")
-    a.start("part.modx", [{"line": line, "condition": "forever() = 1"}])
-    a.ask("threads")
+    before = line_of("part.modx", "! first")
+    a.start("part.modx", [{"line": before, "logMessage": "before"}, {"line": line, "condition": "forever() = 1"}])
+    a.event("output", output="before\n")  # a pause that comes earlier stops the program before the breakpoint
     a.go("pause")
     a.stopped("breakpoint", line)
     a.set_lines("part.modx", [])
