@@ -27,8 +27,7 @@ struct CompileSettings {
     bool inParts = false;      ///< each routine when it is called first, also in a small program
     bool interpreted = false;  ///< every routine is interpreted, not only huge ones
     bool executedOnce = false; ///< main runs once: its own loops need no better code than that
-    bool keepsProgram =
-        true; ///< the checked program remains in memory; false: compilation().program becomes null
+    bool keepsProgram = true;  ///< false: compilation().program is dropped and becomes null
 };
 
 class LoadedProgram {
