@@ -79,7 +79,7 @@ class BreakpointArea final : public Area {
             return breakpoints_.clear();
         const auto line = static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine));
         if (breakpoints_.remove(textOf(params, "task"), textOf(params, "module"), line) == 0)
-            notFound("There is no breakpoint in that line");
+            notFound("No breakpoint is set in that line");
     }
 
     service::VirtualController& controller_;

@@ -3,9 +3,9 @@
 #include "config/letter_case.h"
 #include "config/read_file.h"
 #include "tools/rws/file_service.h"
-#include "tools/rws/polled_states.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
+#include "tools/rws/state_watch.h"
 #include "tools/service/cfg_types.h"
 
 #include <fmt/format.h>
@@ -29,12 +29,9 @@ std::string valueIn(std::string_view text) {
     return std::string(isList ? text.substr(1, comma - 1) : text);
 }
 
-Reply noDomain(const std::string& name) {
-    return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no configuration domain {}", name));
-}
-
-Reply replyOf(const std::optional<Failure>& failure) {
-    return Reply::refuse(failure->code, failure->message, failure->status);
+Failure noDomain(const Request& request) {
+    return {ReturnCode::NotFound, fmt::format("unknown configuration domain {}", request.parameter("domain")),
+            0};
 }
 
 std::string hrefOf(const std::string& domain, const std::string& type) {
@@ -55,10 +52,11 @@ Reply Configuration::domains(const Request&) const {
 
 Reply Configuration::types(const Request& request) const {
     const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-    if (domain.empty()) return noDomain(request.parameter("domain"));
+    if (domain.empty()) return Reply::refuse(noDomain(request));
     const std::vector<std::string> all = store_.types(domain);
     ListPage page;
-    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page)) return replyOf(failure);
+    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page))
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
@@ -80,7 +78,7 @@ std::optional<Failure> Configuration::typeIn(const Request& request, std::string
 
 Reply Configuration::type(const Request& request) const {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     const std::string base = fmt::format("/rw/cfg/{}/{}/", domain, escapedSegment(request.parameter("type")));
@@ -91,7 +89,7 @@ Reply Configuration::type(const Request& request) const {
 
 Reply Configuration::attributes(const Request& request) const {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     const std::string type = request.parameter("type");
     Document document;
     document.place = Document::Place::Resources;
@@ -134,11 +132,12 @@ void describe(const Request& request, const ConfigurationStore::Instance& instan
 
 Reply Configuration::instances(const Request& request) const {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     const std::string type = request.parameter("type");
     const std::vector<Instance> all = store_.instances(domain, type);
     ListPage page;
-    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page)) return replyOf(failure);
+    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page))
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
@@ -152,7 +151,7 @@ Reply Configuration::instances(const Request& request) const {
 
 Reply Configuration::instance(const Request& request) const {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     const std::string type = request.parameter("type"), name = request.parameter("name");
     const auto found = store_.find(domain, type, name);
     if (!found) return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
@@ -165,7 +164,7 @@ Reply Configuration::instance(const Request& request) const {
 
 Reply Configuration::set(const Request& request) {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     const std::string type = request.parameter("type"), name = request.parameter("name");
     if (!store_.find(domain, type, name))
         return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
@@ -178,7 +177,7 @@ Reply Configuration::set(const Request& request) {
 
 Reply Configuration::create(const Request& request) {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     service::CfgValues values;
     for (const auto& [attribute, value] : request.form.all())
         if (!sameName(attribute, "name")) values.emplace_back(attribute, valueIn(value));
@@ -192,7 +191,7 @@ Reply Configuration::create(const Request& request) {
 
 Reply Configuration::remove(const Request& request) {
     std::string domain;
-    if (const auto failure = typeIn(request, domain)) return replyOf(failure);
+    if (const auto failure = typeIn(request, domain)) return Reply::refuse(*failure);
     const std::string type = request.parameter("type"), name = request.parameter("name");
     if (!store_.find(domain, type, name))
         return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
@@ -227,7 +226,7 @@ Reply Configuration::load(const Request& request, bool tryOnly) {
 
 Reply Configuration::save(const Request& request) const {
     const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-    if (domain.empty()) return noDomain(request.parameter("domain"));
+    if (domain.empty()) return Reply::refuse(noDomain(request));
     const auto file = volumePath(controller_, fieldOf(request, "filepath"));
     if (!file) return badParameter("filepath", "/fileservice/$HOME/name.cfg");
     std::string text = store_.text(domain);
@@ -243,30 +242,26 @@ Reply Configuration::save(const Request& request) const {
 // ---- Routes --------------------------------------------------------------------------------------------------------
 
 void Configuration::subscribe(Subscribables& subscribables) {
-    const Subscribables* all = &subscribables;
     subscribables.add(
         {"/rw/cfg/{domain}", "", false, std::nullopt,
-         [this, all](const Request& request, const Changed& changed,
-                     Subscription& out) -> std::optional<Failure> {
+         [this](const Request& request, const Changed& changed, Subscription& out) -> std::optional<Failure> {
              const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-             if (domain.empty()) return Failure{ReturnCode::NotFound, "there is no such domain", 0};
+             if (domain.empty()) return noDomain(request);
              // the text is made only when something of the whole configuration has changed
-             return watchPolled(
-                 *all,
-                 [this, domain, seen = store_.changes(), text = store_.text(domain),
-                  count = uint64_t{0}]() mutable {
-                     if (std::exchange(seen, store_.changes()) != store_.changes()) {
-                         std::string now = store_.text(domain);
-                         if (now != text) ++count;
-                         text = std::move(now);
-                     }
-                     Entry entry;
-                     entry.type = "cfg-domain-ev";
-                     entry.title = domain;
-                     entry.value("name", domain).value("change-count", fmt::format("{}", count));
-                     return entry;
-                 },
-                 changed, out);
+             const auto read = [this, domain, seen = store_.changes(), text = store_.text(domain),
+                                count = uint64_t{0}]() mutable {
+                 if (std::exchange(seen, store_.changes()) != store_.changes()) {
+                     std::string now = store_.text(domain);
+                     if (now != text) ++count;
+                     text = std::move(now);
+                 }
+                 Entry entry;
+                 entry.type = "cfg-domain-ev";
+                 entry.title = domain;
+                 entry.value("name", domain).value("change-count", fmt::format("{}", count));
+                 return entry;
+             };
+             return watchState(controller_.observers(), {service::Change::Interval}, read, changed, out);
          }});
 }
 

@@ -124,7 +124,6 @@ void Subscriptions::tick() {
     for (int priority = 0; priority < 2; ++priority) {
         if (now - sent_[priority] < kPeriods[priority]) continue;
         sent_[priority] = now;
-        if (priority == 1) post_([this] { subscribables_.poll(); });
         sendMerged(priority);
     }
 }

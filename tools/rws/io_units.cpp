@@ -1,12 +1,10 @@
 #include "tools/rws/io_units.h"
 
 #include "config/text_util.h"
-#include "tools/rws/polled_states.h"
 #include "tools/rws/request_values.h"
+#include "tools/rws/state_watch.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace rapidc::rws {
 
@@ -17,12 +15,12 @@ using rapid::config::sameName;
 
 constexpr std::size_t kMostOnPage = 100;
 
-Reply noNetwork(const std::string& name) {
-    return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no I/O network {}", name));
+Failure noNetwork(const Request& request) {
+    return {ReturnCode::NotFound, fmt::format("unknown I/O network {}", request.parameter("network")), 0};
 }
 
-Reply noDevice(const std::string& name) {
-    return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no I/O device {}", name));
+Failure noDevice(const Request& request) {
+    return {ReturnCode::NotFound, fmt::format("unknown I/O device {}", request.parameter("device")), 0};
 }
 
 } // namespace
@@ -62,15 +60,19 @@ Reply IoUnits::searchNetworks(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
+std::string IoUnits::findNetwork(const Request& request) const {
+    for (const std::string& name : devices().networkNames())
+        if (sameName(name, request.parameter("network"))) return name;
+    return {};
+}
+
 Reply IoUnits::network(const Request& request) const {
-    for (const std::string& name : devices().networkNames()) {
-        if (!sameName(name, request.parameter("network"))) continue;
-        Document document;
-        document.place = Document::Place::Resources;
-        describeNetwork(name, document.add("ios-network", name));
-        return Reply::of(std::move(document));
-    }
-    return noNetwork(request.parameter("network"));
+    const std::string name = findNetwork(request);
+    if (name.empty()) return Reply::refuse(noNetwork(request));
+    Document document;
+    document.place = Document::Place::Resources;
+    describeNetwork(name, document.add("ios-network", name));
+    return Reply::of(std::move(document));
 }
 
 Reply IoUnits::setNetwork(const Request& request) {
@@ -78,12 +80,10 @@ Reply IoUnits::setNetwork(const Request& request) {
     const bool starts = sameName(state, "start") || sameName(state, "started");
     if (!starts && !sameName(state, "stop") && !sameName(state, "stopped"))
         return Reply::refuse(ReturnCode::BadParameter, "lstate is 'start' or 'stop'");
-    for (const std::string& name : devices().networkNames()) {
-        if (!sameName(name, request.parameter("network"))) continue;
-        devices().setNetworkError(name, !starts);
-        return Reply::done();
-    }
-    return noNetwork(request.parameter("network"));
+    const std::string name = findNetwork(request);
+    if (name.empty()) return Reply::refuse(noNetwork(request));
+    devices().setNetworkError(name, !starts);
+    return Reply::done();
 }
 
 // ---- Devices -------------------------------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ Reply IoUnits::listDevices(const Request& request) const {
 
 Reply IoUnits::device(const Request& request) const {
     const std::string name = find(request);
-    if (name.empty()) return noDevice(request.parameter("device"));
+    if (name.empty()) return Reply::refuse(noDevice(request));
     Document document;
     document.place = Document::Place::Resources;
     describeDevice(name, document.add("ios-device", devices().networkOf(name) + "/" + name));
@@ -138,7 +138,7 @@ Reply IoUnits::device(const Request& request) const {
 
 Reply IoUnits::setDevice(const Request& request) {
     const std::string name = find(request), state = fieldOf(request, "lstate");
-    if (name.empty()) return noDevice(request.parameter("device"));
+    if (name.empty()) return Reply::refuse(noDevice(request));
     const bool enables = sameName(state, "enable") || sameName(state, "enabled");
     if (!enables && !sameName(state, "disable") && !sameName(state, "disabled"))
         return Reply::refuse(ReturnCode::BadParameter, "lstate is 'enable' or 'disable'");
@@ -168,22 +168,20 @@ Reply IoUnits::search(const Request& request) const {
 }
 
 Reply IoUnits::networkConfiguration(const Request& request) const {
-    for (const std::string& name : devices().networkNames()) {
-        if (!sameName(name, request.parameter("network"))) continue;
-        Document document;
-        document.place = Document::Place::Resources;
-        document.add("ios-network-config-general", name)
-            .value("cfgname", "INDUSTRIAL_NETWORK")
-            .value("name", name)
-            .value("simulated", "TRUE");
-        return Reply::of(std::move(document));
-    }
-    return noNetwork(request.parameter("network"));
+    const std::string name = findNetwork(request);
+    if (name.empty()) return Reply::refuse(noNetwork(request));
+    Document document;
+    document.place = Document::Place::Resources;
+    document.add("ios-network-config-general", name)
+        .value("cfgname", "INDUSTRIAL_NETWORK")
+        .value("name", name)
+        .value("simulated", "TRUE");
+    return Reply::of(std::move(document));
 }
 
 Reply IoUnits::deviceConfiguration(const Request& request) const {
     const std::string name = find(request);
-    if (name.empty()) return noDevice(request.parameter("device"));
+    if (name.empty()) return Reply::refuse(noDevice(request));
     const std::string network = devices().networkOf(name);
     Document document;
     document.place = Document::Place::Resources;
@@ -196,47 +194,30 @@ Reply IoUnits::deviceConfiguration(const Request& request) const {
 }
 
 void IoUnits::subscribe(Subscribables& subscribables) {
-    const Subscribables* all = &subscribables;
-    subscribables.add(
-        {"/rw/iosystem/networks/{network}", "state", false, std::nullopt,
-         [this, all](const Request& request, const Changed& changed,
-                     Subscription& out) -> std::optional<Failure> {
-             const std::string asked = request.parameter("network");
-             const std::vector<std::string> names = devices().networkNames();
-             const auto found = std::find_if(names.begin(), names.end(),
-                                             [&](const std::string& name) { return sameName(name, asked); });
-             if (found == names.end())
-                 return Failure{ReturnCode::NotFound, fmt::format("there is no I/O network {}", asked), 0};
-             const std::string network = *found;
-             return watchPolled(
-                 *all,
-                 [this, network] {
-                     Entry entry;
-                     entry.type = "ios-networkstate-ev";
-                     entry.title = network;
-                     describeNetwork(network, entry);
-                     return entry;
-                 },
-                 changed, out);
-         }});
+    const auto watch = [this](const char* type, const std::string& name, auto describe,
+                              const Changed& changed, Subscription& out) {
+        const auto read = [this, type, name, describe] {
+            Entry entry;
+            entry.type = type;
+            entry.title = name;
+            (this->*describe)(name, entry);
+            return entry;
+        };
+        return watchState(controller_.observers(), {service::Change::Interval}, read, changed, out);
+    };
+    subscribables.add({"/rw/iosystem/networks/{network}", "state", false, std::nullopt,
+                       [this, watch](const Request& request, const Changed& changed,
+                                     Subscription& out) -> std::optional<Failure> {
+                           const std::string name = findNetwork(request);
+                           if (name.empty()) return noNetwork(request);
+                           return watch("ios-networkstate-ev", name, &IoUnits::describeNetwork, changed, out);
+                       }});
     subscribables.add({"/rw/iosystem/devices/{device*}", "state", false, std::nullopt,
-                       [this, all](const Request& request, const Changed& changed,
-                                   Subscription& out) -> std::optional<Failure> {
-                           const std::string device = find(request);
-                           if (device.empty())
-                               return Failure{
-                                   ReturnCode::NotFound,
-                                   fmt::format("there is no I/O device {}", request.parameter("device")), 0};
-                           return watchPolled(
-                               *all,
-                               [this, device] {
-                                   Entry entry;
-                                   entry.type = "ios-devicestate-ev";
-                                   entry.title = device;
-                                   describeDevice(device, entry);
-                                   return entry;
-                               },
-                               changed, out);
+                       [this, watch](const Request& request, const Changed& changed,
+                                     Subscription& out) -> std::optional<Failure> {
+                           const std::string name = find(request);
+                           if (name.empty()) return noDevice(request);
+                           return watch("ios-devicestate-ev", name, &IoUnits::describeDevice, changed, out);
                        }});
 }
 

@@ -16,6 +16,8 @@ class IoUnits {
 
   private:
     void subscribe(Subscribables& subscribables);
+    /// "" when there is none of the name in the path.
+    std::string findNetwork(const Request& request) const;
     rt::IoDevices& devices() const { return controller_.core().io().devices(); }
     Reply networks(const Request& request) const;
     Reply network(const Request& request) const;

@@ -4,6 +4,8 @@
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/state_watch.h"
 
+#include <algorithm>
+
 namespace rapidc::rws {
 
 namespace {
@@ -80,24 +82,18 @@ void MastershipResources::addTo(Router& router, Subscribables& subscribables) {
              const std::string& name = request.parameter("domain");
              return watchState(
                  controller_.observers(), {service::Change::Mastership},
-                 [this, request, name, domains] {
-                     Entry entry = entryOf("msh-resource-ev", request, name, domains);
-                     entry.values
-                         .pop_back(); // sessions share the event: it does not say whether it is theirs
-                     return entry;
+                 [this, name, domains] { // sessions share the event: it does not say whether it is theirs
+                     return holderEntry("msh-resource-ev", name, domains);
                  },
                  changed, out);
          }});
 }
 
-Entry MastershipResources::entryOf(const char* type, const Request& request, const std::string& name,
-                                   const std::vector<Domain>& domains) const {
+Entry MastershipResources::holderEntry(const char* type, const std::string& name,
+                                       const std::vector<Domain>& domains) const {
     const Mastership::Holder* holder = nullptr;
-    bool isMine = true;
-    for (const Domain domain : domains) {
+    for (const Domain domain : domains)
         if (const Mastership::Holder* found = mastership_.holder(domain)) holder = found;
-        isMine = isMine && mastership_.isHeldBy(domain, request.session ? request.session->number : 0);
-    }
     Entry entry;
     entry.type = type;
     entry.title = name;
@@ -105,8 +101,17 @@ Entry MastershipResources::entryOf(const char* type, const Request& request, con
         .value("uid", holder ? std::to_string(holder->session) : "")
         .value("application", holder ? "RobotWebServices" : "")
         .value("location", holder ? holder->address : "")
-        .value("alias", holder ? holder->user : "")
-        .value("mastershipheldbyme", holder && isMine ? "TRUE" : "FALSE");
+        .value("alias", holder ? holder->user : "");
+    return entry;
+}
+
+Entry MastershipResources::entryOf(const char* type, const Request& request, const std::string& name,
+                                   const std::vector<Domain>& domains) const {
+    const uint64_t session = request.session ? request.session->number : 0;
+    const bool isMine = std::all_of(domains.begin(), domains.end(),
+                                    [&](Domain domain) { return mastership_.isHeldBy(domain, session); });
+    Entry entry = holderEntry(type, name, domains);
+    entry.value("mastershipheldbyme", isMine ? "TRUE" : "FALSE");
     return entry;
 }
 

@@ -24,6 +24,8 @@ class MastershipResources {
     Reply releaseWithId(const Request& request);
     /// The handler, unless RobotWare 8 has control stations in place of mastership.
     Handler before8(Handler handler) const;
+    Entry holderEntry(const char* type, const std::string& name, const std::vector<Domain>& domains) const;
+    /// Also whether the session of the request holds them.
     Entry entryOf(const char* type, const Request& request, const std::string& name,
                   const std::vector<Domain>& domains) const;
 

@@ -119,6 +119,9 @@ struct Reply {
     /// Success without a body: 204.
     static Reply done(int status = 204);
     static Reply refuse(ReturnCode code, std::string message, int status = 0);
+    static Reply refuse(const Failure& failure) {
+        return refuse(failure.code, failure.message, failure.status);
+    }
 };
 
 } // namespace rapidc::rws

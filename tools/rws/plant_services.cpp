@@ -18,8 +18,9 @@ std::string parameterFolder(service::VirtualController& controller) {
 
 PlantServices::PlantServices(service::VirtualController& controller, const Access& access)
     : journal_(controller), configuration_(controller, parameterFolder(controller)), manual_(controller),
-      signals_(controller), ioUnits_(controller), mechanicalUnits_(controller, manual_, access),
-      kinematics_(manual_), configurationPages_(controller, configuration_, volumes_, progress_, access),
+      progress_(controller.observers()), signals_(controller), ioUnits_(controller),
+      mechanicalUnits_(controller, manual_, access), kinematics_(manual_),
+      configurationPages_(controller, configuration_, volumes_, progress_, access),
       eventLog_(journal_, volumes_, progress_, controller.settings().robotWare),
       system_(controller, volumes_), platform_(controller), files_(volumes_),
       backups_(controller, configuration_, volumes_, progress_) {

@@ -1,7 +1,7 @@
 #include "tools/rws/progress.h"
 
-#include "tools/rws/polled_states.h"
 #include "tools/rws/request_values.h"
+#include "tools/rws/state_watch.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,14 @@ namespace rapidc::rws {
 namespace {
 
 constexpr std::string_view kPath = "/progress/";
+
+uint64_t numberIn(const Request& request) {
+    return countIn(request.parameter("id")).value_or(0);
+}
+
+Failure unknown(const Request& request) {
+    return {ReturnCode::NotFound, fmt::format("unknown progress {}", request.parameter("id")), 0};
+}
 
 } // namespace
 
@@ -33,25 +41,22 @@ void Progress::describe(const Work& work, Entry& entry) {
 }
 
 void Progress::addTo(Router& router, Subscribables& subscribables) {
-    const Subscribables* all = &subscribables;
     for (const char* resource : {"", "state"}) // clients write either
         subscribables.add({"/progress/{id}", resource, false, std::nullopt,
-                           [this, all](const Request& request, const Changed& changed,
-                                       Subscription& out) -> std::optional<Failure> {
-                               const uint64_t id = countIn(request.parameter("id")).value_or(0);
-                               if (!works_.contains(id))
-                                   return Failure{ReturnCode::NotFound, "there is no such work", 0};
-                               return watchPolled(
-                                   *all,
-                                   [this, id] {
-                                       Entry entry;
-                                       entry.type = "progress-ev";
-                                       const auto found = works_.find(id); // old work is forgotten
-                                       entry.title = found == works_.end() ? "" : found->second.operation;
-                                       if (found != works_.end()) describe(found->second, entry);
-                                       return entry;
-                                   },
-                                   changed, out);
+                           [this](const Request& request, const Changed& changed,
+                                  Subscription& out) -> std::optional<Failure> {
+                               const uint64_t id = numberIn(request);
+                               if (!works_.contains(id)) return unknown(request);
+                               const auto read = [this, id] {
+                                   Entry entry;
+                                   entry.type = "progress-ev";
+                                   const auto found = works_.find(id);
+                                   if (found == works_.end()) return entry; // old work is forgotten
+                                   entry.title = found->second.operation;
+                                   describe(found->second, entry);
+                                   return entry;
+                               };
+                               return watchState(observers_, {service::Change::Interval}, read, changed, out);
                            }});
     router.getBoth("/progress", [this](const Request&) {
         Document document;
@@ -63,8 +68,8 @@ void Progress::addTo(Router& router, Subscribables& subscribables) {
         return Reply::of(std::move(document));
     });
     router.getBoth("/progress/{id}", [this](const Request& request) {
-        const auto found = works_.find(countIn(request.parameter("id")).value_or(0));
-        if (found == works_.end()) return Reply::refuse(ReturnCode::NotFound, "there is no such work");
+        const auto found = works_.find(numberIn(request));
+        if (found == works_.end()) return Reply::refuse(unknown(request));
         const Work& work = found->second;
         Document document;
         describe(work, document.add("progress", work.operation));

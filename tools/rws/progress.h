@@ -3,6 +3,7 @@
 
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
+#include "tools/service/observers.h"
 
 #include <map>
 #include <string>
@@ -11,6 +12,8 @@ namespace rapidc::rws {
 
 class Progress {
   public:
+    /// The observers must outlive it.
+    explicit Progress(service::Observers& observers) : observers_(observers) {}
     /// The path of a new resource, for the header Location; it is pending until done() is called with it.
     std::string begin(const std::string& operation);
     /// `code`: ReturnCode::Success or why the work failed.
@@ -26,6 +29,7 @@ class Progress {
     };
     static void describe(const Work& work, Entry& entry);
 
+    service::Observers& observers_;
     std::map<uint64_t, Work> works_;
     uint64_t last_ = 0;
 };

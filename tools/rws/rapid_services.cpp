@@ -8,12 +8,12 @@
 namespace rapidc::rws {
 
 RapidServices::RapidServices(service::VirtualController& controller)
-    : controller_(controller), mastership_(controller.observers()), stations_(controller, mastership_),
-      access_(controller, mastership_, users_, stations_), mastershipResources_(controller, mastership_),
-      panel_(controller, access_), breakpoints_(controller), programs_(controller, access_, breakpoints_),
-      execution_(controller, access_, breakpoints_), tasks_(controller, access_),
-      pointers_(controller, access_), modules_(controller, access_), symbols_(controller, access_),
-      dialogs_(controller), queues_(controller) {}
+    : controller_(controller), mastership_(controller.observers()), users_(controller.observers()),
+      stations_(controller, mastership_), access_(controller, mastership_, users_, stations_),
+      mastershipResources_(controller, mastership_), panel_(controller, access_), breakpoints_(controller),
+      programs_(controller, access_, breakpoints_), execution_(controller, access_, breakpoints_),
+      tasks_(controller, access_), pointers_(controller, access_), modules_(controller, access_),
+      symbols_(controller, access_), dialogs_(controller), queues_(controller) {}
 
 void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     users_.addTo(router, subscribables);

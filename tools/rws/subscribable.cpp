@@ -9,11 +9,6 @@ void Subscribables::add(Subscribable subscribable) {
     all_.push_back(std::move(subscribable));
 }
 
-void Subscribables::poll() const {
-    for (const auto& look : *polls_)
-        look();
-}
-
 const Subscribable* Subscribables::find(std::string_view text, Request& request) const {
     const std::size_t semicolon = text.rfind(';');
     const std::string_view path = text.substr(0, semicolon);

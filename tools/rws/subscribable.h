@@ -6,7 +6,6 @@
 #include "tools/rws/path_pattern.h"
 
 #include <functional>
-#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,14 +46,7 @@ class Subscribables {
     /// A subscribable without resource also answers to "/a/NAME;NAME".
     const Subscribable* find(std::string_view text, Request& request) const;
 
-    /// The functions that poll() calls (polled_states.h).
-    using Polls = std::list<std::function<void()>>;
-    Polls& polls() const { return *polls_; }
-    /// Reads the states that report no changes; each 200 ms or so.
-    void poll() const;
-
   private:
-    std::shared_ptr<Polls> polls_ = std::make_shared<Polls>();
     std::vector<Subscribable> all_;
     std::vector<PathPattern> patterns_; ///< of each
 };

@@ -1,8 +1,8 @@
 #include "tools/rws/users.h"
 
 #include "config/letter_case.h"
-#include "tools/rws/polled_states.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/state_watch.h"
 
 #include <fmt/format.h>
 
@@ -56,24 +56,21 @@ Users::Person Users::personOf(const Session& session) const {
 }
 
 void Users::subscribe(Subscribables& subscribables) {
-    const Subscribables* all = &subscribables;
     subscribables.add({"/users/rmmp", "", false, std::nullopt,
-                       [this, all](const Request&, const Changed& changed, Subscription& out) {
-                           return watchPolled(
-                               *all,
-                               [this] {
-                                   const auto holder =
-                                       privileged_.empty() ? names_.end() : names_.find(*privileged_.begin());
-                                   const bool isHeld = holder != names_.end();
-                                   Entry entry;
-                                   entry.type = "user-rmmp-ev";
-                                   entry.title = "rmmp";
-                                   entry.value("userid", isHeld ? std::to_string(holder->first) : "0")
-                                       .value("alias", isHeld ? holder->second : "")
-                                       .value("privilege", isHeld ? "modify" : "none");
-                                   return entry;
-                               },
-                               changed, out);
+                       [this](const Request&, const Changed& changed, Subscription& out) {
+                           const auto read = [this] {
+                               const auto holder =
+                                   privileged_.empty() ? names_.end() : names_.find(*privileged_.begin());
+                               const bool isHeld = holder != names_.end();
+                               Entry entry;
+                               entry.type = "user-rmmp-ev";
+                               entry.title = "rmmp";
+                               entry.value("userid", isHeld ? std::to_string(holder->first) : "0")
+                                   .value("alias", isHeld ? holder->second : "")
+                                   .value("privilege", isHeld ? "modify" : "none");
+                               return entry;
+                           };
+                           return watchState(observers_, {service::Change::Interval}, read, changed, out);
                        }});
 }
 

@@ -3,6 +3,7 @@
 
 #include "tools/rws/router.h"
 #include "tools/rws/subscribable.h"
+#include "tools/service/observers.h"
 
 #include <cstdint>
 #include <map>
@@ -13,6 +14,8 @@ namespace rapidc::rws {
 
 class Users {
   public:
+    /// The observers must outlive it.
+    explicit Users(service::Observers& observers) : observers_(observers) {}
     void addTo(Router& router, Subscribables& subscribables);
     /// The session has the privilege to modify in manual mode.
     bool mayModify(uint64_t session) const { return privileged_.contains(session); }
@@ -33,6 +36,7 @@ class Users {
     void subscribe(Subscribables& subscribables);
     Person personOf(const Session& session) const;
 
+    service::Observers& observers_;
     std::map<uint64_t, Person> people_; ///< by session
     std::map<uint64_t, std::string> names_;
     std::set<uint64_t> privileged_;

@@ -31,6 +31,7 @@ enum class Change : uint8_t {
     Dialog,         ///< an operator dialog was opened or closed, or a message shown
     Display,        ///< a line was written with TPWrite, or the display erased
     Mastership,
+    Interval,   ///< 200 ms have passed while clients are served: for states that report no changes
     Generation, ///< restart or program load: core() is another object now; watches of signals and data continue
 };
 

@@ -79,6 +79,9 @@ std::string Serving::open() {
 void Serving::start() {
     server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
     server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
+    server_.every(std::chrono::milliseconds(200), [this] {
+        controller_.post([this] { controller_.observers().changed(service::Change::Interval); });
+    });
     server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
     const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
     subscriptions_.setBase(rws::Dialect::V1, fmt::format("http://{}:{}", host, httpPort_));
