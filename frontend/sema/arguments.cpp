@@ -405,10 +405,7 @@ void Arguments::checkPresent(const BoundArg& bound) {
 
 // `\Arg?Param`: present if the caller's own optional parameter is.
 void Arguments::checkConditional(const RoutineSymbol& routine, BoundArg& bound) {
-    if (!bound.value || bound.value->kind == NodeKind::PlaceholderExpr) {
-        if (bound.value) placeholder(*bound.value);
-        return;
-    }
+    if (!bound.value || bound.value->kind == NodeKind::PlaceholderExpr) return;
     const Expr& e = *bound.value;
     const bool outer = std::exchange(state_.presenceOnly, true);
     judgeConditional(routine, bound, e);

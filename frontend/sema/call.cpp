@@ -165,7 +165,6 @@ bool CallBinder::matchArguments(BoundCall& call, TokenIndex name, std::span<Argu
         size_t index = kNoParam;
         if (arg->value && arg->value->kind == NodeKind::ErrorExpr) complete = false;
         if (arg->argKind == ArgKind::Placeholder) {
-            placeholder(*arg);
             complete = false;
         } else if (arg->argKind != ArgKind::Required) {
             index = matchOptional(call, *arg, name);
@@ -435,10 +434,7 @@ void CallBinder::lateCall(const CallStmt& stmt) {
     call.args = facts().inner.makeArray<BoundArg>(stmt.args.size());
     size_t count = 0;
     for (const Argument* arg : stmt.args) {
-        if (arg->argKind == ArgKind::Placeholder) {
-            placeholder(*arg);
-            continue;
-        }
+        if (arg->argKind == ArgKind::Placeholder) continue;
         BoundArg& bound = call.args[count++];
         give(bound, *arg);
         if (!arg->value) continue;

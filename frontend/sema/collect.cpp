@@ -56,11 +56,14 @@ void Collector::collect(Module& module) {
     state_.enterModule(&module);
     ModuleScope& scope = *state_.scopes[module.id];
     const std::span<Decl* const> decls = module.decl->decls;
+    if (module.decl->name != kNoToken) notePlaceholders(module.decl->name, module.decl->name);
     for (size_t i = 0; i < decls.size(); ++i) {
         constexpr size_t kAhead = 8;
         if (i + kAhead < decls.size() && decls[i + kAhead]->kind == NodeKind::Data)
             names_.expect(context_.tree->text(as<DataDecl>(*decls[i + kAhead]).name));
         const Decl* decl = decls[i];
+        if (decl->kind != NodeKind::Routine || !isName(as<RoutineDecl>(*decl).name))
+            notePlaceholders(decl->first, decl->last);
         switch (decl->kind) {
         case NodeKind::Record:
         case NodeKind::Alias: {
@@ -92,7 +95,6 @@ void Collector::collect(Module& module) {
             declareInModule(symbol, scope);
             break;
         }
-        case NodeKind::PlaceholderDecl: placeholder(*decl); break;
         default: break;
         }
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "frontend/syntax/token_set.h"
+
 namespace rapid::sema {
 
 using namespace syntax;
@@ -91,10 +93,9 @@ std::string CheckerPart::valueText(const Expr& e) const {
     return fmt::format("{} = {}", text(e), value->number);
 }
 
-void CheckerPart::placeholder(const Node& node) {
-    const TokenIndex first = node.first;
-    // A program with placeholders can be loaded and run; ERR_EXECPHR is raised where one is reached (manual 1.1.2).
-    report(say::Placeholder, range(first), {text(first)});
+void CheckerPart::notePlaceholders(TokenIndex first, TokenIndex last) {
+    for (TokenIndex t = first; t <= last; ++t)
+        if (isPlaceholder(context_.tree->tokens[t].kind)) report(say::Placeholder, range(t), {text(t)});
 }
 
 } // namespace rapid::sema

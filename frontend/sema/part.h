@@ -51,7 +51,9 @@ class CheckerPart {
     }
     /// Adds "declared here" at the declaration of `symbol`, when it has one in a file of the user.
     static void noteDeclared(diag::Diagnostic& diagnostic, const Symbol& symbol);
-    void placeholder(const syntax::Node& node);
+    /// Notes every placeholder from `first` to `last`: a program with placeholders can be loaded and run, and
+    /// ERR_EXECPHR is raised where one is reached (manual 1.1.2).
+    void notePlaceholders(syntax::TokenIndex first, syntax::TokenIndex last);
     /// Fills the members that every symbol of the module has.
     template <class S>
     S& fill(S& symbol, SymbolKind kind, const syntax::Node& decl, syntax::TokenIndex name, bool local);

@@ -173,7 +173,7 @@ Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     place = this->place(*e.base);
     place.whole = false;
     const ExprInfo& base = info(*e.base);
-    if (base.type.type->kind == TypeKind::Error || e.name == kNoToken) return {};
+    if (base.type.type->kind == TypeKind::Error || !isName(e.name)) return {};
     if (base.type.rank > 0) {
         report(say::ComponentOfArray, range(e.name), {text(e.name)});
         return {};

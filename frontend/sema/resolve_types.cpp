@@ -166,7 +166,6 @@ DataSymbol& TypeResolver::newParameter(RoutineSymbol& routine) {
 
 void TypeResolver::resolveParameter(RoutineSymbol& routine, const ParamDecl& decl) {
     if (decl.placeholder || !isName(decl.name)) {
-        if (decl.placeholder) placeholder(decl);
         routine.incomplete = true;
         return;
     }
@@ -201,9 +200,7 @@ void TypeResolver::resolveParameter(RoutineSymbol& routine, const ParamDecl& dec
     symbol.type.type = resolveType(decl.type);
     symbol.type.rank = decl.rank > 3 ? 0 : decl.rank;
     if (decl.rank > 3) { // <DIM>, or more than three stars
-        if (decl.rank == 255)
-            placeholder(decl);
-        else
+        if (decl.rank != 255)
             report(say::TooManyDimensions, range(decl.name + 8), {std::to_string(decl.rank)}); // "{*,*,*,*"
         symbol.type.type = program_.errorType;
     }

@@ -39,6 +39,7 @@ void RoutineChecker::checkRoutine(RoutineSymbol& symbol) {
         data_.ensureValue(*symbol.data[i]);
         context_.constant = false;
     }
+    notePlaceholders(decl.first, decl.last);
     const bool completes = checkPart(Part::Body, decl.body);
     checkPart(Part::Backward, decl.backward);
     for (const ErrorClause* clause : decl.errors) {

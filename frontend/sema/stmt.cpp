@@ -90,7 +90,6 @@ bool Statements::wholeStatement(const Stmt& s) {
         loopWord(s, "CONTINUE");
         return false;
     case NodeKind::PlaceholderStmt:
-        placeholder(s);
         routine_.broken = true; // it may be the RETURN
         return true;
     case NodeKind::DeclStmt: { // its place was reported by the parser
@@ -134,10 +133,7 @@ bool Statements::ifStmt(const IfStmt& s) {
     bool completes = !s.hasElse;
     bool first = true;
     for (const IfBranch* branch : s.branches) {
-        if (branch->condition)
-            expressions_.condition(*branch->condition, first ? "IF" : "ELSEIF");
-        else if (context_.tree->tokens[branch->first].kind == TokenKind::PlaceEit)
-            placeholder(*branch);
+        if (branch->condition) expressions_.condition(*branch->condition, first ? "IF" : "ELSEIF");
         completes |= routines_.block(branch->body);
         first = false;
     }
@@ -206,7 +202,6 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
     const DataType& type = subject.info->type; // changes when a value decides between num and dnum
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
-        if (c->values.empty() && context_.tree->tokens[c->first].kind == TokenKind::PlaceCse) placeholder(*c);
         for (const Expr* value : c->values) {
             const Typed t = expressions_.expr(*value, &type);
             if (t.isError() || !known) continue;

@@ -3,6 +3,7 @@
 #include "sema_testing.h"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 namespace {
 
@@ -76,6 +77,28 @@ TEST_CASE("placeholders are notes: a program with them can be loaded", "[sema]")
     CHECK(checked->sink.all()[0].code == diag::Code::Placeholder);
     const auto run = checkMain({text});
     CHECK(run->messages().empty());
+}
+
+TEST_CASE("every placeholder is noted once, whatever it stands for", "[sema]") {
+    const std::string text =
+        "MODULE <ID>\n  VAR num <ID>;\n  VAR num list{<EXP>};\n  <DDN>\n  RECORD <ID>\n    num x;\n  "
+        "ENDRECORD\n"
+        "  PROC <ID>()\n    <SMT>\n  ENDPROC\n  PROC p(<PAR>)\n  ENDPROC\n"
+        "  PROC main()\n    VAR pos place;\n    VAR num n := <EXP>;\n    n := place.<ID> + <ID>;\n"
+        "    <ID> <ARG>;\n    FOR <ID> FROM 1 TO <EXP> DO\n    ENDFOR\n    IF TRUE THEN\n    <EIT>\n    "
+        "ENDIF\n"
+        "    TEST n\n    <CSE>\n    ENDTEST\n    GOTO <ID>;\n  ENDPROC\nENDMODULE\n";
+    size_t expected = 0;
+    for (size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
+        ++expected;
+    const auto checked = checkTexts({text});
+    std::set<uint32_t> noted;
+    for (const diag::Diagnostic& d : checked->sink.all()) {
+        if (d.code != diag::Code::Placeholder) continue;
+        CHECK(text[d.range.begin] == '<');
+        CHECK(noted.insert(d.range.begin).second);
+    }
+    CHECK(noted.size() == expected);
 }
 
 TEST_CASE("a file given twice is read once", "[sema]") {
