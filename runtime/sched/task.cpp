@@ -333,7 +333,7 @@ Status Task::safepointOnce(Frame* at) {
             if (yieldWanted_) forceSafepoint();
         } else if (yieldWanted_) {
             if (standing_ == Standing::Between && at != nullptr && at->routine->stepping != 0) {
-                forceSafepoint(); // before the next statement, where a later process could continue
+                forceLook(); // yields at the next statement, where a later process could continue
                 return kOk;
             }
             yieldWanted_ = false;
