@@ -68,7 +68,8 @@ bool linkExecutable(const std::vector<std::string>& objects, const std::string& 
         }
     std::vector<std::string> arguments{driver};
     arguments.insert(arguments.end(), objects.begin(), objects.end());
-    if (canUseLld()) arguments.push_back("-fuse-ld=lld");
+    // written, not mapped into memory: so a full disk is an error of the linker, not a signal that kills it
+    if (canUseLld()) arguments.insert(arguments.end(), {"-fuse-ld=lld", "-Wl,--no-mmap-output-file"});
     if (options.stripDebug) arguments.push_back("-Wl,--strip-debug");
     if (!options.wholeLibraries.empty()) {
         arguments.push_back("-Wl,--whole-archive");
