@@ -1,4 +1,5 @@
 #include "tools/rws/control_stations.h"
+#include "tools/rws/request_values.h"
 
 #include "tools/rws/rapid_support.h"
 
@@ -89,7 +90,7 @@ void ControlStations::addTo(Router& router) {
         return one("controstation-allow-motion-control", "is-enabled", motionControl_ ? "true" : "false");
     });
     post("/allowmotioncontrol", [this](const Request& request) {
-        const std::optional<bool> allow = readBool(request.form.text("allow-motion-control"));
+        const std::optional<bool> allow = flagIn(request.form.text("allow-motion-control"));
         if (!allow) return badParameter("allow-motion-control", "true or false");
         motionControl_ = *allow;
         return Reply::done();

@@ -1,4 +1,5 @@
 #include "tools/rws/execution.h"
+#include "tools/rws/request_values.h"
 
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/state_watch.h"
@@ -117,7 +118,7 @@ Reply Execution::start(const Request& request) {
         return badParameter("condition", "none or callchain");
     if (!isOneOf(request, "stopatbp", {"enabled", "disabled"}))
         return badParameter("stopatbp", "enabled or disabled");
-    if (request.form.has("alltaskbytsp") && !readBool(request.form.text("alltaskbytsp")))
+    if (request.form.has("alltaskbytsp") && !flagIn(request.form.text("alltaskbytsp")))
         return badParameter("alltaskbytsp", "true or false");
     const bool before = controller_.panel().runOnce;
     const std::string cycle = request.form.text("cycle");

@@ -1,4 +1,5 @@
 #include "tools/rws/mastership_resources.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
@@ -160,7 +161,7 @@ Reply MastershipResources::releaseWithId(const Request& request) {
     if (domains.empty()) return noDomain(request);
     // The reply of request-with-id spells it with a hyphen.
     const char* field = request.form.has("mastership-id") ? "mastership-id" : "mastershipid";
-    const auto id = readWhole(request.form.text(field), 1, INT32_MAX);
+    const auto id = wholeIn(request.form.text(field), 1, INT32_MAX);
     if (!id || !mastership_.releaseWithId(domains, static_cast<int>(*id)))
         return badParameter("mastershipid", "the id that request-with-id gave");
     return Reply::done();

@@ -89,12 +89,12 @@ Reply MechanicalUnits::setMotionSupervision(const Request& request, const Unit& 
     UnitChoice choice = manual_.choice(unit);
     const std::string mode = fieldOf(request, "mode"), sensitivity = fieldOf(request, "sensitivity");
     if (!mode.empty()) {
-        const auto on = readBool(mode);
+        const auto on = flagIn(mode);
         if (!on) return badParameter("mode", "ON or OFF");
         choice.motionSupervision = *on;
     }
     if (!sensitivity.empty()) {
-        const auto level = readWhole(sensitivity, 0, 300);
+        const auto level = wholeIn(sensitivity, 0, 300);
         if (!level) return badParameter("sensitivity", "0 to 300 per cent");
         choice.motionSensitivity = static_cast<int>(*level);
     }
@@ -105,8 +105,8 @@ Reply MechanicalUnits::setMotionSupervision(const Request& request, const Unit& 
 Reply MechanicalUnits::setPathSupervision(const Request& request, const Unit& unit) {
     UnitChoice choice = manual_.choice(unit);
     const std::string mode = fieldOf(request, "mode"), text = fieldOf(request, "level");
-    const auto on = readBool(mode);
-    const auto level = readWhole(text, 0, 300);
+    const auto on = flagIn(mode);
+    const auto level = wholeIn(text, 0, 300);
     if (mode.empty() && text.empty()) return badParameter("mode", "ON or OFF");
     if ((!mode.empty() && !on) || (!text.empty() && !level))
         return badParameter("mode", "ON or OFF; level from 0 to 300");
@@ -264,7 +264,7 @@ Reply MechanicalUnits::setJogTarget(const Request& request) {
 /// A mode that can only be off here: ON is refused.
 Handler MechanicalUnits::onlyOff(const char* why) {
     return access_.guarded(Domain::Motion, [why](const Request& request) {
-        const auto on = readBool(fieldOf(request, "mode"));
+        const auto on = flagIn(fieldOf(request, "mode"));
         if (!on) return badParameter("mode", "ON or OFF");
         return *on ? Reply::refuse(ReturnCode::NotSupported, why, 403) : Reply::done();
     });

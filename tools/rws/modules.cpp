@@ -1,4 +1,5 @@
 #include "tools/rws/modules.h"
+#include "tools/rws/request_values.h"
 
 #include "config/atomic_file.h"
 #include "config/letter_case.h"
@@ -31,7 +32,7 @@ std::optional<TextRange> rangeOf(const Request& request) {
     TextRange range;
     const auto read = [&](const char* name, int64_t otherwise, int64_t& into) {
         const std::string text = field(request, name);
-        const auto number = text.empty() ? otherwise : readWhole(text, -1, 10'000'000);
+        const auto number = text.empty() ? otherwise : wholeIn(text, -1, 10'000'000);
         into = number.value_or(0);
         return number && *number != 0;
     };

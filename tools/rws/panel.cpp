@@ -1,4 +1,5 @@
 #include "tools/rws/panel.h"
+#include "tools/rws/request_values.h"
 
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/state_watch.h"
@@ -142,7 +143,7 @@ void Panel::addStops(Router& router) {
     chain("general-stop", &Controller::openSafeguard);
     chain("auto-stop", &Controller::openSafeguard);
     router.post(Dialect::V2, "/rw/panel/enable-switch", [](const Request& request) {
-        if (!readBool(request.form.text("state"))) return badParameter("state", "on or off");
+        if (!flagIn(request.form.text("state"))) return badParameter("state", "on or off");
         return Reply::done(); // motors are switched on by ctrl-state, in every mode
     });
     const Handler language = [](const Request& request) {
@@ -197,7 +198,7 @@ Reply Panel::setSpeedRatio(const Request& request) {
     const std::size_t point = text.find('.');
     const bool isWhole =
         point == std::string::npos || text.find_first_not_of('0', point + 1) == std::string::npos;
-    const auto ratio = readWhole(std::string_view(text).substr(0, point), 0, 100);
+    const auto ratio = wholeIn(std::string_view(text).substr(0, point), 0, 100);
     if (!ratio || !isWhole) return badParameter("speed-ratio", "a whole number from 0 to 100");
     return replyTo(controller_.setSpeedRatio(static_cast<int>(*ratio)));
 }

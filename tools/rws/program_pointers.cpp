@@ -1,4 +1,5 @@
 #include "tools/rws/program_pointers.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
@@ -149,7 +150,7 @@ Reply ProgramPointers::toCursor(const Request& request) {
     const std::string module = request.form.text("module");
     std::string row = request.form.text("begin-position-row");
     if (row.empty()) row = request.form.text("line");
-    const auto line = readWhole(row, 1, kMostLines);
+    const auto line = wholeIn(row, 1, kMostLines);
     if (module.empty()) return badParameter("module", "the name of a module");
     if (!line) return badParameter("begin-position-row", "the number of a line");
     if (controller_.core().tables().findModule(static_cast<int32_t>(task->index()), module) == nullptr)

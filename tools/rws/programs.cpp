@@ -1,4 +1,5 @@
 #include "tools/rws/programs.h"
+#include "tools/rws/request_values.h"
 
 #include "config/atomic_file.h"
 #include "config/letter_case.h"
@@ -208,8 +209,8 @@ Reply Programs::setBreak(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string module = field(request, "module"), columnText = field(request, "column");
-    const auto row = readWhole(field(request, "row"), 1, 10'000'000);
-    const auto column = columnText.empty() ? 1 : readWhole(columnText, 0, 10'000'000);
+    const auto row = wholeIn(field(request, "row"), 1, 10'000'000);
+    const auto column = columnText.empty() ? 1 : wholeIn(columnText, 0, 10'000'000);
     if (!row) return badParameter("row", "the number of a line");
     if (!column) return badParameter("column", "a number");
     const auto* found = controller_.core().tables().findModule(static_cast<int32_t>(task->index()), module);
@@ -230,7 +231,7 @@ Reply Programs::setBreak(const Request& request) {
 Reply Programs::removeBreak(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    const auto row = readWhole(field(request, "row"), 1, 10'000'000);
+    const auto row = wholeIn(field(request, "row"), 1, 10'000'000);
     if (!row || breakpoints_.remove(task->name(), field(request, "module"), static_cast<uint32_t>(*row)) == 0)
         return badParameter("module or row", "the place of a breakpoint");
     return Reply::done();

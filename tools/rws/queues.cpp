@@ -1,4 +1,5 @@
 #include "tools/rws/queues.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 #include "runtime/value/value_text.h"
@@ -166,7 +167,7 @@ Reply Queues::list(const Request&) {
 Reply Queues::create(const Request& request) {
     const auto number = [&](std::initializer_list<const char*> names, int64_t otherwise, int64_t most) {
         for (const char* name : names)
-            if (request.form.has(name)) return readWhole(request.form.text(name), 1, most);
+            if (request.form.has(name)) return wholeIn(request.form.text(name), 1, most);
         return std::optional(otherwise);
     };
     auto queue = std::make_shared<Queue>();
@@ -200,8 +201,8 @@ Reply Queues::send(const Request& request) {
     const std::string from = request.form.text("dipc-src-queue-name");
     const std::string type = request.form.text("dipc-msgtype"), command = request.form.text("dipc-cmd");
     if (!request.form.has("dipc-data")) return badParameter("dipc-data", "the message");
-    if (!type.empty() && !readWhole(type, 0, 1000)) return badParameter("dipc-msgtype", "a number");
-    if (!command.empty() && !readWhole(command, 0, INT32_MAX)) return badParameter("dipc-cmd", "a number");
+    if (!type.empty() && !wholeIn(type, 0, 1000)) return badParameter("dipc-msgtype", "a number");
+    if (!command.empty() && !wholeIn(command, 0, INT32_MAX)) return badParameter("dipc-cmd", "a number");
     const std::shared_ptr<Queue> queue = find(name);
     if (!queue) {
         rt::lib::MessageQueues& all = rapidQueues();

@@ -1,9 +1,9 @@
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace rapidc::rws {
 
@@ -35,22 +35,6 @@ Reply badParameter(std::string_view name, std::string_view expected) {
 
 Reply replyTo(const service::Refusal& refusal, ReturnCode code, int status) {
     return refusal.empty() ? Reply::done() : Reply::refuse(code, refusal, status);
-}
-
-std::optional<bool> readBool(std::string_view text) {
-    for (const char* word : {"true", "1", "on", "enabled"})
-        if (sameName(text, word)) return true;
-    for (const char* word : {"false", "0", "off", "disabled"})
-        if (sameName(text, word)) return false;
-    return std::nullopt;
-}
-
-std::optional<int64_t> readWhole(std::string_view text, int64_t least, int64_t most) {
-    int64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end || value < least || value > most) return std::nullopt;
-    return value;
 }
 
 void addOrder(Router& router, const std::string& pattern, const char* oldName, const char* newName,
@@ -98,12 +82,12 @@ std::optional<Page> readPage(const Request& request, std::size_t standardLimit, 
     };
     Page page{0, standardLimit};
     if (const std::string text = field("start"); !text.empty()) {
-        const auto start = readWhole(text, 0, INT32_MAX);
+        const auto start = wholeIn(text, 0, INT32_MAX);
         if (!start) return std::nullopt;
         page.start = static_cast<std::size_t>(*start);
     }
     if (const std::string text = field("limit"); !text.empty()) {
-        const auto limit = readWhole(text, 1, INT32_MAX);
+        const auto limit = wholeIn(text, 1, INT32_MAX);
         if (!limit) return std::nullopt;
         page.limit = std::min(static_cast<std::size_t>(*limit), mostLimit);
     }

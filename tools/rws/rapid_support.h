@@ -4,7 +4,6 @@
 #include "tools/rws/router.h"
 #include "tools/service/virtual_controller.h"
 
-#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -22,10 +21,6 @@ Reply badParameter(std::string_view name, std::string_view expected);
 /// An order of the controller: 204, or its refusal with this code.
 Reply replyTo(const service::Refusal& refusal, ReturnCode code = ReturnCode::Rejected, int status = 0);
 
-/// true, false, 1, 0, on, off, enabled, disabled; in any case. None: something else.
-std::optional<bool> readBool(std::string_view text);
-/// A whole number, all of the text. None: something else, or it lies outside the limits.
-std::optional<int64_t> readWhole(std::string_view text, int64_t least, int64_t most);
 /// "true" or "false".
 inline const char* boolText(bool value) {
     return value ? "true" : "false";

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace rapidc::rws {
@@ -15,7 +16,7 @@ namespace {
 using rapid::config::sameName;
 using rapid::config::trimmed;
 
-constexpr std::size_t kMostDigits = 9;
+constexpr int64_t kLargestCount = 999'999'999;
 
 } // namespace
 
@@ -38,14 +39,17 @@ std::optional<double> numberIn(std::string_view text) {
     return value;
 }
 
-std::optional<std::size_t> countIn(std::string_view text) {
-    if (text.empty() || text.size() > kMostDigits) return std::nullopt;
-    std::size_t value = 0;
-    for (const char c : text) {
-        if (c < '0' || c > '9') return std::nullopt;
-        value = value * 10 + static_cast<std::size_t>(c - '0');
-    }
+std::optional<int64_t> wholeIn(std::string_view text, int64_t least, int64_t most) {
+    int64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || value < least || value > most) return std::nullopt;
     return value;
+}
+
+std::optional<std::size_t> countIn(std::string_view text) {
+    const auto count = wholeIn(text, 0, kLargestCount);
+    return count ? std::optional(static_cast<std::size_t>(*count)) : std::nullopt;
 }
 
 std::optional<std::vector<double>> numbersIn(std::string_view given, std::size_t count) {
@@ -67,9 +71,9 @@ std::optional<std::vector<double>> numbersIn(std::string_view given, std::size_t
 }
 
 std::optional<bool> flagIn(std::string_view text) {
-    for (const char* word : {"true", "1", "on"})
+    for (const char* word : {"true", "1", "on", "enabled"})
         if (sameName(text, word)) return true;
-    for (const char* word : {"false", "0", "off"})
+    for (const char* word : {"false", "0", "off", "disabled"})
         if (sameName(text, word)) return false;
     return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include "tools/rws/message.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,11 +16,13 @@ namespace rapidc::rws {
 std::string withExponents(std::string text);
 /// A finite number; none for every other text.
 std::optional<double> numberIn(std::string_view text);
-/// A whole number of at most nine digits, not negative.
+/// A whole number, all of the text; none for every other text, and for numbers outside the limits.
+std::optional<int64_t> wholeIn(std::string_view text, int64_t least, int64_t most);
+/// A whole number from 0 to 999,999,999; none for every other text.
 std::optional<std::size_t> countIn(std::string_view text);
 /// "[1,2,3]" or "1,2,3", of `count` finite numbers; none for every other text.
 std::optional<std::vector<double>> numbersIn(std::string_view text, std::size_t count);
-/// "true", "1", "on"; "false", "0", "off"; in any case.
+/// "true", "1", "on", "enabled"; "false", "0", "off", "disabled"; in any case. None for every other text.
 std::optional<bool> flagIn(std::string_view text);
 
 /// As numbers are shown: the shortest text that reads back as the same binary32 value.

@@ -65,7 +65,7 @@ bool splitType(std::string text, std::string& name, std::vector<int32_t>& dims) 
     text = text.substr(open + 1, text.size() - open - 2);
     while (dims.size() < 3) {
         const std::size_t comma = text.find(',');
-        const auto dim = readWhole(text.substr(0, comma), 1, 100'000);
+        const auto dim = wholeIn(text.substr(0, comma), 1, 100'000);
         if (!dim) return false;
         dims.push_back(static_cast<int32_t>(*dim));
         if (comma == std::string::npos) return true;

@@ -1,4 +1,5 @@
 #include "tools/rws/symbol_text.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 #include "stdlib/impl/data/name_pattern.h"
@@ -67,7 +68,7 @@ bool readType(const std::string& word, std::set<SymbolType>& types, bool& any) {
 
 bool readFlag(const Fields& form, const char* name, bool otherwise, bool& into) {
     const std::string text = form.text(name);
-    const std::optional<bool> flag = text.empty() ? otherwise : readBool(text);
+    const std::optional<bool> flag = text.empty() ? otherwise : flagIn(text);
     into = flag.value_or(otherwise);
     return flag.has_value();
 }
@@ -164,7 +165,7 @@ std::optional<SymbolQuery> readQuery(const Fields& form, std::string& problem) {
     flags = readFlag(form, "skipshared", false, query.skipPredefined) && flags;
     if (problem.empty() && !flags) problem = "recursive, onlyused and skipshared must be true or false";
     const std::string stack = form.text("stack");
-    const auto frame = stack.empty() ? 0 : readWhole(stack, 0, 10'000);
+    const auto frame = stack.empty() ? 0 : wholeIn(stack, 0, 10'000);
     if (problem.empty() && !frame) problem = "stack must be the number of a stack frame";
     query.frame = static_cast<uint32_t>(frame.value_or(0));
     if (problem.empty() && !readPattern(form.text("regexp"), query))

@@ -186,7 +186,7 @@ Reply System::setClock(const Request& request) {
                                 {"sys-clock-day", 1, 31},       {"sys-clock-hour", 0, 23},
                                 {"sys-clock-min", 0, 59},       {"sys-clock-sec", 0, 59}};
     for (std::size_t i = 0; i < 6; ++i) {
-        const auto value = readWhole(textOf(kParts[i].field), kParts[i].least, kParts[i].most);
+        const auto value = wholeIn(textOf(kParts[i].field), kParts[i].least, kParts[i].most);
         if (!value)
             return badParameter(kParts[i].field, fmt::format("{} to {}", kParts[i].least, kParts[i].most));
         parts[i] = *value;

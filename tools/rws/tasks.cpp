@@ -1,4 +1,5 @@
 #include "tools/rws/tasks.h"
+#include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
@@ -245,7 +246,7 @@ Reply Tasks::loadModule(const Request& request) {
     const std::string given = request.form.text("modulepath");
     if (given.empty()) return badParameter("modulepath", "the path of a module, such as $HOME/part.mod");
     const std::string replaceText = request.form.text("replace");
-    const std::optional<bool> replace = replaceText.empty() ? false : readBool(replaceText);
+    const std::optional<bool> replace = replaceText.empty() ? false : flagIn(replaceText);
     if (!replace) return badParameter("replace", "true or false");
     const std::optional<VolumePath> path = volumePath(controller_, given);
     std::error_code code;
@@ -303,7 +304,7 @@ Reply Tasks::activationRecord(const Request& request) {
     if (task == nullptr) return noTask(request);
     const auto frames = controller_.core().debugger().frames(*task);
     const std::string asked = request.query.text("stackframe");
-    const auto number = readWhole(asked.empty() ? "0" : asked, 0, INT32_MAX);
+    const auto number = wholeIn(asked.empty() ? "0" : asked, 0, INT32_MAX);
     if (!number) return badParameter("stackframe", "a number from 0");
     rt::SourcePlace at;
     const auto pointer = service::programPointer(controller_, *task);
