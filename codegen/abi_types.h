@@ -31,7 +31,9 @@ template <class T> llvm::StructType* structType(llvm::LLVMContext& context) {
 }
 
 template <class T> llvm::Type* typeOf(llvm::LLVMContext& context) {
-    if constexpr (std::is_pointer_v<T>)
+    if constexpr (std::is_void_v<T>)
+        return llvm::Type::getVoidTy(context);
+    else if constexpr (std::is_pointer_v<T>)
         return llvm::PointerType::getUnqual(context);
     else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>)
         return llvm::IntegerType::get(context, 8 * sizeof(T));
@@ -55,7 +57,7 @@ namespace detail {
 
 template <class Signature> struct SignatureParts;
 template <class R, class... P> struct SignatureParts<R(P...)> {
-    static_assert((PassedPlainly<R> && ... && PassedPlainly<P>));
+    static_assert(((std::is_void_v<R> || PassedPlainly<R>) && ... && PassedPlainly<P>));
     static constexpr size_t kParameters = sizeof...(P);
     static llvm::FunctionType* type(llvm::LLVMContext& context) {
         return llvm::FunctionType::get(typeOf<R>(context), {typeOf<P>(context)...}, false);

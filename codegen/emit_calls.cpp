@@ -155,6 +155,20 @@ llvm::Value* RoutineEmitter::pay(Value* cost) {
     return after;
 }
 
+/// Without a look at the budget. While one is due, the cost is for the time after it.
+void RoutineEmitter::charge(const ir::Inst& inst) {
+    Value* cost = costOf(inst);
+    BasicBlock *now = newBlock("now"), *later = newBlock("later"), *charged = newBlock("charged");
+    b_.CreateCondBr(b_.CreateICmpSGE(budgetLeft(), b_.getInt64(0)), now, later, m_.unlikely());
+    b_.SetInsertPoint(later);
+    m_.runtime().chargeLater.call(b_, task_, cost);
+    b_.CreateBr(charged);
+    b_.SetInsertPoint(now);
+    pay(cost);
+    b_.CreateBr(charged);
+    b_.SetInsertPoint(charged);
+}
+
 /// Of a charge or a safepoint.
 llvm::Value* RoutineEmitter::costOf(const ir::Inst& inst) {
     Value* cost = llvm::ConstantInt::getSigned(b_.getInt64Ty(), inst.extra);

@@ -115,6 +115,7 @@ void ModuleEmitter::declareRuntime() {
     runtime_.retry = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_retry));
     runtime_.stackOverflow = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_stackOverflow));
     runtime_.step = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_step));
+    runtime_.chargeLater = cold(RAPIDC_DECLARE_RUNTIME(*target_, rt_chargeLater));
 }
 
 llvm::Constant* ModuleEmitter::initialValue(const ir::Global& global) {

@@ -71,6 +71,7 @@ struct RuntimeParts {
     abi::Callee<decltype(rt_retry)> retry;
     abi::Callee<decltype(rt_stackOverflow)> stackOverflow;
     abi::Callee<decltype(rt_step)> step;
+    abi::Callee<decltype(rt_chargeLater)> chargeLater;
     abi::Callee<SafepointSlow> safepointSlow; ///< own function that keeps all registers
 };
 

@@ -298,7 +298,7 @@ void RoutineEmitter::action(const ir::Inst& inst, ir::ValueId id) {
     case ir::ActionOp::CheckFinite: return check(inst, isFinite(operand(inst, 0)));
     case ir::ActionOp::Call: return call(inst, id);
     case ir::ActionOp::CallNative: return nativeCall(inst, id, false);
-    case ir::ActionOp::Charge: pay(costOf(inst)); return;
+    case ir::ActionOp::Charge: return charge(inst);
     case ir::ActionOp::Safepoint: return safepoint(inst);
     case ir::ActionOp::Step: return step(inst);
     case ir::ActionOp::Stmt: return; // its number travels with the instructions

@@ -120,6 +120,7 @@ class RoutineEmitter {
     Value* pay(Value* cost);
     Value* budgetLeft();
     Value* costOf(const ir::Inst& inst);
+    void charge(const ir::Inst& inst);
     void safepoint(const ir::Inst& inst);
     void checkBudget(const ir::Inst& inst, Value* left);
     void step(const ir::Inst& inst);

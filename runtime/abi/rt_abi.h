@@ -344,6 +344,9 @@ rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
 /// Stepping profile, before a statement, when the budget is used up or TaskCore::askSteps is set: the task may stop
 /// here or be sent elsewhere. Returns the number of the statement to execute next (>= 0), or a negative status (unwind).
 int32_t rt_step(rt::TaskCore* task, rt::Frame* frame);
+/// Stepping profile, for a charge while the budget is below 0: the next statement looks at it. `cost` instructions are charged
+/// after that look, as in the other profiles, which look at each charge.
+void rt_chargeLater(rt::TaskCore* task, int64_t cost);
 /// The stack of the task is used up. Returns kUnwind.
 rt::Status rt_stackOverflow(rt::TaskCore* task, rt::Frame* frame);
 

@@ -147,6 +147,13 @@ class Activation {
         return at + 3 + count;
     }
 
+    void charge(int64_t cost) {
+        if (task_->budget < 0)
+            rt_chargeLater(task_, cost);
+        else
+            task_->budget -= cost;
+    }
+
     const uint32_t* safepoint(int64_t cost, const uint32_t* next) {
         task_->budget -= cost;
         if (task_->budget >= 0) return next;
@@ -471,11 +478,11 @@ Status Activation::run() {
         case WordOp::Call: at = call(at, false); break;
         case WordOp::CallNative: at = call(at, true); break;
         case WordOp::Charge:
-            task_->budget -= static_cast<int32_t>(at[1]);
+            charge(static_cast<int32_t>(at[1]));
             at += 2;
             break;
         case WordOp::ChargeMore:
-            task_->budget -= static_cast<int32_t>(at[1]) + slot(at[2]).integer;
+            charge(static_cast<int32_t>(at[1]) + slot(at[2]).integer);
             at += 3;
             break;
         case WordOp::Safepoint: at = safepoint(static_cast<int32_t>(at[1]), at + 2); break;

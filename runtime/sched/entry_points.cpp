@@ -14,6 +14,10 @@ int32_t rt_step(rt::TaskCore* task, rt::Frame* frame) {
     return rt::taskOf(task).step(frame);
 }
 
+void rt_chargeLater(rt::TaskCore* task, int64_t cost) {
+    rt::taskOf(task).chargeLater(cost);
+}
+
 rt::Status rt_raise(rt::TaskCore* task, rt::Frame* frame, rt::Status errorNumber) {
     return rt::taskOf(task).raiseAt(frame, errorNumber);
 }

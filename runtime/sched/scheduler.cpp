@@ -42,7 +42,7 @@ Scheduler::~Scheduler() = default;
 
 /// The instructions that the running task owes so far in this slice, its debt included.
 int64_t Scheduler::unitsUsed() const {
-    const int64_t instructions = granted_ - (running_->budget + running_->stash_);
+    const int64_t instructions = granted_ - (running_->budget + running_->stash_) + running_->later_.sum();
     // A counted loop without calls is charged ahead as a whole: a year of it must not overflow.
     constexpr int64_t kMost = INT64_MAX / 4 / kUnitsPerInstruction;
     return debtAtStart_ + std::min(instructions, kMost) * kUnitsPerInstruction;
@@ -184,6 +184,7 @@ void Scheduler::settle(Task& task) {
     const int64_t used = unitsUsed();
     running_ = nullptr;
     task.stash_ = 0;
+    task.later_.costs.clear();
     if (used >= sliceUnits_) {
         task.debt_ = used - sliceUnits_;
         moveTo(horizon_);

@@ -96,7 +96,8 @@ bool Task::runCycle() {
     if (status == kOk && nextGuide_ != nullptr) beginReentry();
     if (interrupts_.deliverable()) interruptPosted(); // occurred while the last cycle was left
     if (status == kOk && entry != nullptr) status = entry(this, nullptr);
-    if (status > 0) (void)raiseAt(nullptr, status); // no routine took it, and none reported it
+    if (status == kOk && budget < 0) status = safepoint(nullptr); // charged after the last statement
+    if (status > 0) (void)raiseAt(nullptr, status);               // no routine took it, and none reported it
     frame = nullptr;
     endReentry();
     retries_.clear();
@@ -298,20 +299,45 @@ void Task::forceSafepoint() {
     yieldWanted_ = true;
     if (budget <= 0) return;
     stash_ += budget;
-    budget = 0;
+    budget = later_.forcedTo = 0;
 }
 
 void Task::forceLook() {
     if (budget < 0) return;
     stash_ += budget + 1;
-    budget = -1;
+    budget = later_.forcedTo = -1;
+}
+
+void Task::chargeLater(int64_t cost) {
+    if (budget ==
+        later_.forcedTo) // nothing has been charged since: the other profiles look after this charge
+        budget -= cost;
+    else
+        later_.costs.push_back(cost);
 }
 
 Status Task::safepoint(Frame* at) {
-    Status status = kAgain;
-    while (status == kAgain) // an interrupt without trap routine stopped the task, and it was started again
-        status = safepointOnce(at);
+    const auto look = [&] {
+        Status status = kAgain;
+        while (status ==
+               kAgain) // an interrupt without trap routine stopped the task, and it was started again
+            status = safepointOnce(at);
+        return status;
+    };
+    std::vector<int64_t> later = std::exchange(later_.costs, {}); // a trap routine has charges of its own
+    Status status = look();
+    auto next = later.begin();
+    for (; next != later.end() && status == kOk && !yieldsAtStatement(at); ++next) {
+        budget -= *next;
+        if (budget < 0) status = look();
+    }
+    later_.costs.insert(later_.costs.begin(), next, later.end());
     return status;
+}
+
+/// Wants to yield, but a later process could continue only before a statement.
+bool Task::yieldsAtStatement(const Frame* at) const {
+    return yieldWanted_ && standing_ == Standing::Between && at != nullptr && at->routine->stepping != 0;
 }
 
 Status Task::safepointOnce(Frame* at) {
@@ -320,6 +346,7 @@ Status Task::safepointOnce(Frame* at) {
     flushHandledWarning();
     budget += stash_;
     stash_ = 0;
+    later_.forcedTo = LaterCharges::kNotForced;
     const bool leaving = pendingUnwind_ != Unwind::None || unwinding_ != Unwind::None || mustHalt();
     Status status = kOk;
     if (budget < 0 || leaving || events_.owed()) {
@@ -332,8 +359,8 @@ Status Task::safepointOnce(Frame* at) {
             status = interrupts_.deliver();
             if (yieldWanted_) forceSafepoint();
         } else if (yieldWanted_) {
-            if (standing_ == Standing::Between && at != nullptr && at->routine->stepping != 0) {
-                forceLook(); // yields at the next statement, where a later process could continue
+            if (yieldsAtStatement(at)) {
+                forceLook();
                 return kOk;
             }
             yieldWanted_ = false;

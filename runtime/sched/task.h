@@ -23,6 +23,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -313,6 +314,7 @@ class Task : public TaskCore {
     // ---- Entry points of compiled code (rt_abi.h) --------------------------------------------------------------
     Status safepoint(Frame* at);
     int32_t step(Frame* at);
+    void chargeLater(int64_t cost);
     Status raiseAt(Frame* at, int number);
     Status nativeFailedAt(Frame* at, Status status);
     Status landAt(Frame* at, Status status);
@@ -382,6 +384,15 @@ class Task : public TaskCore {
   private:
     friend class Scheduler;
 
+    /// The stepping profile looks at the budget before statements only. What is charged while a look is due belongs after it.
+    struct LaterCharges {
+        int64_t forcedTo = kNotForced; ///< the budget as forceSafepoint or forceLook left it
+        std::vector<int64_t> costs;    ///< in order
+        static constexpr int64_t kNotForced = 1;
+
+        int64_t sum() const { return std::accumulate(costs.begin(), costs.end(), int64_t{0}); }
+    };
+
     enum class Unwind : uint8_t { None, Exit, ExitCycle, ToMain, Abandon, Jump, Event };
     /// RETRYs of one statement, for each error number; belongs to a frame record as long as that one carries its id.
     struct RetryCount {
@@ -420,6 +431,7 @@ class Task : public TaskCore {
     Status block();
     void countAgain(Time& deadline, Time span, uint64_t& starts) const;
     Status safepointOnce(Frame* at);
+    bool yieldsAtStatement(const Frame* at) const;
     Status enterWait();
     Status afterSwitch();
     Status beginUnwind(Unwind cause);
@@ -465,6 +477,7 @@ class Task : public TaskCore {
     // kept by the scheduler: charged but not yet paid with time (in 1/rate ns); budget set aside by forceSafepoint
     int64_t debt_ = 0;
     int64_t stash_ = 0;
+    LaterCharges later_;
     bool yieldWanted_ = false; // forceSafepoint: the next safepoint is to end the slice
 
     std::vector<WaitQueue*> waitingOn_;
