@@ -115,13 +115,16 @@ void solveProfile(benchmark::State& state) {
     }
     ProfileSolver solver;
     int64_t cells = 0;
+    int iterations = 0;
     for (auto _ : state) {
         const ProfileGrid grid = gridOf(path, {});
         auto found = solver.solve(grid.cells, grid.start, grid.endWidth);
         benchmark::DoNotOptimize(found);
+        iterations = found.iterations;
         cells += static_cast<int64_t>(grid.cells.size());
     }
     state.SetItemsProcessed(cells);
+    state.counters["iterations"] = iterations;
 }
 BENCHMARK(solveProfile)->Arg(20)->Arg(200)->Arg(2000);
 
