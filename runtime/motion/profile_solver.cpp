@@ -47,8 +47,8 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
     for (; result.iterations < kMostIterations; ++result.iterations) {
         const double duration = terms_.duration(coefficients);
         const double target = std::max(share * terms_.gap(), 0.2 * kGapShare * duration) / pairs;
-        const bool isKept = terms_.assemble(coefficients, target, matrix_);
-        if (terms_.gap() < kGapShare * duration && isKept &&
+        terms_.assemble(coefficients, target, matrix_);
+        if (terms_.gap() < kGapShare * duration && terms_.worstExcess(coefficients) <= 0 &&
             terms_.imbalance(coefficients) < kBalanceShare * duration)
             break;
         if (!factorAndSolve()) return result;
@@ -248,21 +248,19 @@ void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& r
             most = std::min(
                 most, (std::max(rows.rows[i].up, rows.rows[i].down) + std::abs(rows.rows[i].second) * cap) /
                           std::abs(rows.rows[i].first));
-    constexpr std::size_t kCorners = 6;
-    std::array<std::array<Range, kCorners>, ProfileRows::kMost> ranges;
+    // Changes of acceleration that keep a row lie around a middle that depends on acceleration and square of the speed, closest
+    // at the cap. A row is covered when those of the tightest row do not reach beyond them.
+    struct Middle {
+        double bySlope = 0, bySquare = 0, half = 0;
+    };
+    std::array<Middle, ProfileRows::kMost> middles;
     std::size_t tight = 0;
     double least = 0;
-    // With the square of the speed its bound falls; at the cap it is lowest.
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
         if (row.jerk > kUnlimited) continue;
-        const double bound = row.jerk / root;
         const double inverse = inverseOf(row.first);
-        for (std::size_t c = 0; c < kCorners; ++c) {
-            const double a = most * (static_cast<double>(c % 3) - 1);
-            const double square = c < 3 ? 0 : cap;
-            ranges[i][c] = rangeOf(inverse, 3 * row.second * a + row.third * square, bound, bound);
-        }
+        middles[i] = {3 * row.second * inverse, row.third * inverse, row.jerk / root * std::abs(inverse)};
         const double stiffness = std::abs(row.first) / row.jerk;
         if (stiffness > least) {
             least = stiffness;
@@ -273,10 +271,9 @@ void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& r
         const ProfileRow& row = rows.rows[i];
         if (row.jerk > kUnlimited) continue;
         if (i != tight && least > 0) {
-            bool isCovered = std::abs(row.first) > 1e-14;
-            for (std::size_t c = 0; c < kCorners && isCovered; ++c)
-                isCovered = ranges[i][c].contains(ranges[tight][c]);
-            if (isCovered) continue;
+            const double apart = std::abs(middles[i].bySlope - middles[tight].bySlope) * most +
+                                 std::abs(middles[i].bySquare - middles[tight].bySquare) * cap;
+            if (middles[i].half > 0 && apart + middles[tight].half <= middles[i].half) continue;
         }
         const double unit = row.jerk / root;
         if (std::abs(row.first) < 1e-14 && 3 * std::abs(row.second) * most + std::abs(row.third) * cap < unit)
@@ -284,7 +281,8 @@ void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& r
         const double share = 1 / unit;
         Three line{};
         for (std::size_t k = 0; k < 3; ++k)
-            line[k] = (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) * share;
+            line[k] =
+                (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) * share;
         terms_.addJerk(cell, isLast, folded(cell, line));
     }
 }

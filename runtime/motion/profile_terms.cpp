@@ -16,7 +16,6 @@ using End = ProfileTerms::End;
 using Block = ProfileTerms::Block;
 
 constexpr std::size_t kLanes = ProfileTerms::kLanes;
-constexpr double kAllowed = 1 + ProfileTerms::kMargin / 2;
 
 // These functions are compiled twice, for any processor and for vectors of four numbers. The operations and their order are
 // the same, and so is the result. Vectors are handed over by reference: how values are, depends on the processor.
@@ -66,7 +65,7 @@ struct Sums {
 /// Both limits of a row: takes the last step, and adds to the sums. The gradients are row and -row, of jerks also fall * square.
 template <bool kIsJerk>
 RAPIDC_INLINE void addSlot(Sums& sums, Slot& slot, const std::array<Quad, 3>& c, const Quad* limits,
-                           const ProfileTerms::Lengths& lengths, double target, Quad& worst) {
+                           const ProfileTerms::Lengths& lengths, double target) {
     Quad value;
     dot(value, slot.row, c);
     std::array<Quad, 2> ratio, pull;
@@ -76,7 +75,6 @@ RAPIDC_INLINE void addSlot(Sums& sums, Slot& slot, const std::array<Quad, 3>& c,
         const Quad force = slot.force[side] + lengths.forces * slot.forceStep[side];
         const Quad inverse = 1.0 / slack;
         const Quad miss = (side == 0 ? value : -value) - limit + slack;
-        raise(worst, (side == 0 ? value : -value) - limit * kAllowed);
         ratio[side] = force * inverse;
         pull[side] = target * inverse * slot.used + ratio[side] * miss;
         slot.slack[side] = slack;
@@ -133,7 +131,7 @@ RAPIDC_INLINE void addFall(Sums& sums, const End& end) {
 }
 
 /// Without its terms: the duration and the largest coefficients.
-RAPIDC_INLINE void assembleCaps(Data& data, const double* c, ProfileMatrix& matrix, Quad& worst) {
+RAPIDC_INLINE void assembleCaps(Data& data, const double* c, ProfileMatrix& matrix) {
     for (std::size_t i = 0; i < data.caps.size(); ++i) {
         ProfileTerms::Caps& caps = data.caps[i];
         Quad x;
@@ -142,22 +140,19 @@ RAPIDC_INLINE void assembleCaps(Data& data, const double* c, ProfileMatrix& matr
         caps.force += data.lengths.forces * caps.forceStep;
         caps.inverse = 1.0 / caps.slack;
         caps.miss = x - caps.cap + caps.slack;
-        raise(worst, caps.free * (x - caps.cap * kAllowed));
         Quad root = x;
         rootOf(root);
         const Quad slope = caps.weight / (x * x * root);
         const Quad ratio = caps.force * caps.inverse;
         const Quad diagonal = caps.free * (0.75 * slope + ratio);
-        const Quad right =
-            caps.free * (0.5 * slope * x - data.target * caps.inverse - ratio * caps.miss);
+        const Quad right = caps.free * (0.5 * slope * x - data.target * caps.inverse - ratio * caps.miss);
         std::memcpy(&matrix.diagonal[kLanes * i], &diagonal, sizeof diagonal);
         std::memcpy(&matrix.right[kLanes * i], &right, sizeof right);
     }
 }
 
-RAPIDC_INLINE void assembleAll(Data& data, const double* c, ProfileMatrix& matrix, double& worstOfAll) {
-    Quad worst = {-1, -1, -1, -1};
-    assembleCaps(data, c, matrix, worst);
+RAPIDC_INLINE void assembleAll(Data& data, const double* c, ProfileMatrix& matrix) {
+    assembleCaps(data, c, matrix);
     std::fill(matrix.next.begin(), matrix.next.end(), 0.0);
     std::fill(matrix.second.begin(), matrix.second.end(), 0.0);
     const ProfileTerms::Lengths lengths = data.lengths;
@@ -170,15 +165,15 @@ RAPIDC_INLINE void assembleAll(Data& data, const double* c, ProfileMatrix& matri
         Sums sums;
         for (std::size_t i = 0; i < block.accelerations.count; ++i) {
             Slot& slot = data.accelerations[block.accelerations.begin + i];
-            addSlot<false>(sums, slot, here, slot.most.data(), lengths, target, worst);
+            addSlot<false>(sums, slot, here, slot.most.data(), lengths, target);
         }
         for (std::size_t e = 0; e < 2; ++e) {
             End& end = block.ends[e];
             if (block.jerks[e].count == 0) continue;
             evaluateEnd(end, here);
             for (std::size_t i = 0; i < block.jerks[e].count; ++i)
-                addSlot<true>(sums, data.jerks[e][block.jerks[e].begin + i], here, &end.limit, lengths, target,
-                              worst);
+                addSlot<true>(sums, data.jerks[e][block.jerks[e].begin + i], here, &end.limit, lengths,
+                              target);
             addFall(sums, end);
         }
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -191,13 +186,12 @@ RAPIDC_INLINE void assembleAll(Data& data, const double* c, ProfileMatrix& matri
             matrix.second[at + lane] += sums.second[lane];
         }
     }
-    worstOfAll = mostOf(worst);
 }
 
 /// Largest shares that a step takes of slacks and of forces, and what it changes of their products.
 struct Steps {
     Quad slackLoss{}, forceLoss{};
-    Quad bySlack{}, byForce{}, byBoth{};
+    Quad bySlack{}, byBoth{};
 };
 
 /// Divides only where the loss is larger than the largest one so far.
@@ -207,13 +201,12 @@ RAPIDC_INLINE void raiseShare(Quad& most, const Quad& loss, const Quad& whole) {
     raise(most, loss / whole);
 }
 
-RAPIDC_INLINE void stepPair(Steps& steps, const Quad& slack, const Quad& force, const Quad& inverse,
-                            const Quad& slackStep, Quad& forceStep, const Quad& target) {
+RAPIDC_INLINE void stepPair(Steps& steps, const Quad& force, const Quad& inverse, const Quad& slackStep,
+                            Quad& forceStep, const Quad& target) {
     forceStep = (target - force * slackStep) * inverse - force;
     raise(steps.slackLoss, -slackStep * inverse);
     raiseShare(steps.forceLoss, -forceStep, force);
     steps.bySlack += slackStep * force;
-    steps.byForce += slack * forceStep;
     steps.byBoth += slackStep * forceStep;
 }
 
@@ -224,8 +217,8 @@ RAPIDC_INLINE void stepSlot(Steps& steps, Slot& slot, const std::array<Quad, 3>&
     const Quad goal = target * slot.used;
     for (std::size_t side = 0; side < 2; ++side) {
         slot.slackStep[side] = slot.used * (-slot.miss[side] - (side == 0 ? fall + along : fall - along));
-        stepPair(steps, slot.slack[side], slot.force[side], slot.inverse[side], slot.slackStep[side],
-                 slot.forceStep[side], goal);
+        stepPair(steps, slot.force[side], slot.inverse[side], slot.slackStep[side], slot.forceStep[side],
+                 goal);
     }
 }
 
@@ -238,7 +231,7 @@ RAPIDC_INLINE void stepAll(Data& data, const double* c, const double* step, Step
         raiseShare(steps.slackLoss, -change * caps.free, x);
         caps.slackStep = caps.free * (-caps.miss - change);
         const Quad goal = data.target * caps.free;
-        stepPair(steps, caps.slack, caps.force, caps.inverse, caps.slackStep, caps.forceStep, goal);
+        stepPair(steps, caps.force, caps.inverse, caps.slackStep, caps.forceStep, goal);
     }
     for (std::size_t b = 0; b < data.blocks.size(); ++b) {
         const Block& block = data.blocks[b];
@@ -258,8 +251,8 @@ RAPIDC_INLINE void stepAll(Data& data, const double* c, const double* step, Step
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void assembleWide(Data& data, const double* c, ProfileMatrix& matrix, double& worst) {
-    assembleAll(data, c, matrix, worst);
+[[gnu::target("avx2")]] void assembleWide(Data& data, const double* c, ProfileMatrix& matrix) {
+    assembleAll(data, c, matrix);
 }
 [[gnu::target("avx2")]] void stepWide(Data& data, const double* c, const double* step, Steps& steps) {
     stepAll(data, c, step, steps);
@@ -269,15 +262,15 @@ bool isWide() {
     return is;
 }
 #else
-void assembleWide(Data&, const double*, ProfileMatrix&, double&) {}
+void assembleWide(Data&, const double*, ProfileMatrix&) {}
 void stepWide(Data&, const double*, const double*, Steps&) {}
 constexpr bool isWide() {
     return false;
 }
 #endif
 
-void assembleNarrow(Data& data, const double* c, ProfileMatrix& matrix, double& worst) {
-    assembleAll(data, c, matrix, worst);
+void assembleNarrow(Data& data, const double* c, ProfileMatrix& matrix) {
+    assembleAll(data, c, matrix);
 }
 void stepNarrow(Data& data, const double* c, const double* step, Steps& steps) {
     stepAll(data, c, step, steps);
@@ -297,7 +290,8 @@ template <class DataOf, class Visit> void forEachSlot(DataOf& data, const double
             End end = block.ends[e];
             if (block.jerks[e].count > 0) evaluateEnd(end, here);
             for (std::size_t i = 0; i < block.jerks[e].count; ++i)
-                visit(data.jerks[e][block.jerks[e].begin + i], here, std::array<Quad, 2>{end.limit, end.limit});
+                visit(data.jerks[e][block.jerks[e].begin + i], here,
+                      std::array<Quad, 2>{end.limit, end.limit});
         }
     }
 }
@@ -414,10 +408,9 @@ double ProfileTerms::duration(const double* coefficients) const {
     return sumOf(sum);
 }
 
-bool ProfileTerms::assemble(const double* coefficients, double target, ProfileMatrix& matrix) {
+void ProfileTerms::assemble(const double* coefficients, double target, ProfileMatrix& matrix) {
     data_.target = target;
-    double worst = 0;
-    (isWide() ? assembleWide : assembleNarrow)(data_, coefficients, matrix, worst);
+    (isWide() ? assembleWide : assembleNarrow)(data_, coefficients, matrix);
     data_.lengths = {};
     for (const std::size_t i : fixed_) {
         matrix.diagonal[i] = 1;
@@ -425,14 +418,16 @@ bool ProfileTerms::assemble(const double* coefficients, double target, ProfileMa
         if (i > 0) matrix.next[i - 1] = 0;
         if (i > 1) matrix.second[i - 2] = 0;
     }
-    return worst <= 0;
 }
 
 ProfileTerms::Lengths ProfileTerms::stepLengths(const double* coefficients, const double* step) {
     constexpr double kToBorder = 0.97;
     Steps steps;
     (isWide() ? stepWide : stepNarrow)(data_, coefficients, step, steps);
-    change_ = {sumOf(steps.bySlack), sumOf(steps.byForce), sumOf(steps.byBoth)};
+    // Slack * step of the force is the target less force * (slack + step of the slack).
+    const auto limits = static_cast<double>(pairs_ - fixed_.size());
+    const double bySlack = sumOf(steps.bySlack);
+    change_ = {bySlack, limits * data_.target - bySlack - gap_, sumOf(steps.byBoth)};
     const auto most = [](const Quad& loss) {
         return std::min(1.0, kToBorder / std::max(mostOf(loss), 1e-300));
     };

@@ -20,7 +20,9 @@ class ProfileTerms {
     static constexpr double kMargin = 1e-7; ///< share of each limit that is kept free for rounding
 
     /// How many numbers there are in an array with this many coefficients: up to whole blocks, the rest is 1.
-    static std::size_t paddedCount(std::size_t coefficients) { return (coefficients + 1) / kLanes * kLanes + kLanes; }
+    static std::size_t paddedCount(std::size_t coefficients) {
+        return (coefficients + 1) / kLanes * kLanes + kLanes;
+    }
     /// Forgets all terms. `caps`: the largest value of each coefficient, two more than there are cells; `weights`: what each
     /// contributes to the duration, divided by its root; `isFixed`: it does not change.
     void reset(const std::vector<double>& caps, const std::vector<double>& weights,
@@ -36,12 +38,11 @@ class ProfileTerms {
     void begin(const double* coefficients, double duration);
     /// What is still to be gained, s, shared out among all limits.
     double gap() const { return gap_; }
-    double meanGap() const { return gap_ / static_cast<double>(pairs_); }
     /// Number of limits.
     std::size_t pairs() const { return pairs_; }
     double duration(const double* coefficients) const;
-    /// Sets up the step towards this product of slack and force. Returns whether all limits are kept.
-    bool assemble(const double* coefficients, double target, ProfileMatrix& matrix);
+    /// Sets up the step towards this product of slack and force.
+    void assemble(const double* coefficients, double target, ProfileMatrix& matrix);
     /// Shares of a step, of the coefficients and of the forces.
     struct Lengths {
         double speeds = 0, forces = 0;
