@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
@@ -62,9 +63,10 @@ void appendMove(benchmark::State& state) {
         paths.push_back(std::make_shared<const MotionPath>(std::move(*path)));
     }
     int64_t stretches = 0;
+    std::optional<Trajectory> made;
     for (auto _ : state) {
         state.PauseTiming();
-        Trajectory trajectory(model, {}, {}, kStart, 0);
+        Trajectory& trajectory = made.emplace(model, ExternalAxisModels{}, TrajectoryOptions{}, kStart, 0);
         const auto before = static_cast<std::size_t>(state.range(0));
         for (std::size_t n = 0; n < before; ++n)
             trajectory.append(paths[n], commands[n], 0);
