@@ -362,6 +362,8 @@ Pose Route::flangeFor(const MotionPath& path, const Pose& target, const External
 }
 
 std::size_t Route::ownLeg(double place) const {
+    if (!legs_.empty() && place >= legs_.back().begin)
+        return legCount() - 1; // mostly of a leg that is appended
     const auto after = std::upper_bound(legs_.begin(), legs_.end(), place,
                                         [](double value, const Leg& l) { return value < l.begin; });
     const auto index = after == legs_.begin() ? 0 : static_cast<std::size_t>(after - legs_.begin()) - 1;
@@ -441,8 +443,8 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
     }
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved = next.path->kinematics().inverseContinue(
-        flangeFor(*next.path, pose, point.extax, place), seed, point.joints, armAngle);
+    point.isSolved = next.path->kinematics().inverseContinue(flangeFor(*next.path, pose, point.extax, place),
+                                                             seed, point.joints, armAngle);
     if (tcp != nullptr && point.isSolved) *tcp = pose;
     return point;
 }

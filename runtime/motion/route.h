@@ -129,8 +129,7 @@ class Route {
     bool measure(RouteStretch& stretch, const Joints& seed) const;
     bool isShaped(double place) const;
     std::optional<Pose> userFrameAt(double place) const;
-    Pose flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes,
-                   double place) const;
+    Pose flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes, double place) const;
 
     bool isSmooth_ = false;
     std::function<Pose(double)> carrier_;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 
@@ -188,6 +189,8 @@ TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]"
     std::mt19937_64 random(soak != nullptr ? std::random_device()() : 20261123);
     long above = 0;
     for (long n = 0; n < count; ++n) {
+        if (soak != nullptr && n % std::max(1L, count / 100) == 0)
+            std::fprintf(stderr, "%ld of %ld programs\n", n, count);
         const uint64_t seed = random();
         INFO("seed " << seed);
         random.seed(seed);
