@@ -54,7 +54,7 @@ def rounded(corners, along):
     sides = [(math.dist(a[1:], b[1:]), b[0] - a[0]) for a, b in zip(corners, corners[1:])]
     steepest = sum(across for across, _ in sides) / sum(way for across, way in sides if across > 0)
     width = 40**2 * 2 * steepest / 10_000
-    parts = 200
+    parts = 16
     places = [pattern(corners, along + width * ((k + 0.5) / parts - 0.5)) for k in range(parts)]
     return tuple(sum(values) / parts for values in zip(*places))
 
