@@ -50,7 +50,7 @@ void resolveMove(benchmark::State& state) {
 BENCHMARK(resolveMove);
 
 /// A move appended to a path of `range` moves, whose plan is adapted.
-void appendMove(benchmark::State& state) {
+void appendTo(benchmark::State& state, Planner planner) {
     const robot::RobotModel model = arm();
     const robot::Kinematics kinematics(model);
     std::vector<std::shared_ptr<const MotionPath>> paths;
@@ -64,9 +64,11 @@ void appendMove(benchmark::State& state) {
     }
     int64_t stretches = 0;
     std::optional<Trajectory> made;
+    TrajectoryOptions options;
+    options.planner = planner;
     for (auto _ : state) {
         state.PauseTiming();
-        Trajectory& trajectory = made.emplace(model, ExternalAxisModels{}, TrajectoryOptions{}, kStart, 0);
+        Trajectory& trajectory = made.emplace(model, ExternalAxisModels{}, options, kStart, 0);
         const auto before = static_cast<std::size_t>(state.range(0));
         for (std::size_t n = 0; n < before; ++n)
             trajectory.append(paths[n], commands[n], 0);
@@ -77,7 +79,14 @@ void appendMove(benchmark::State& state) {
     }
     state.counters["stretches"] = static_cast<double>(stretches) / static_cast<double>(state.iterations());
 }
+void appendMove(benchmark::State& state) {
+    appendTo(state, Planner::Measured);
+}
 BENCHMARK(appendMove)->Arg(1)->Arg(10)->Arg(60);
+void appendOptimal(benchmark::State& state) {
+    appendTo(state, Planner::Optimal);
+}
+BENCHMARK(appendOptimal)->Arg(1)->Arg(10)->Unit(benchmark::kMicrosecond);
 
 /// Motion through zones, a sample each 4 ms, with the events of the moves. Counter: seconds of motion per second.
 void simulate(benchmark::State& state) {
