@@ -130,11 +130,11 @@ double Course::slowBy(double factor) {
 
 void Course::forgetBefore(double time) {
     const double needed = time - longWindow_ - shortWindow_;
-    std::size_t spare = 0;
+    constexpr std::size_t kWorthwhile = 256;
+    if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed) return;
+    std::size_t spare = kWorthwhile;
     while (spare + 1 < knots_.size() && knots_[spare + 1].t <= needed)
         ++spare;
-    constexpr std::size_t kWorthwhile = 256;
-    if (spare < kWorthwhile) return;
     knots_.erase(knots_.begin(), knots_.begin() + static_cast<std::ptrdiff_t>(spare));
     // Neither a shift of all places nor the constants of integration change what is executed.
     const double shift = knots_.front().s;

@@ -112,7 +112,7 @@ Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kine
     }
     MotionPath path;
     path.kinematics_ = kinematics;
-    path.frames_ = command.frames;
+    path.setFrames(command.frames);
     path.start_ = start;
     path.end_ = start;
     const bool isAbsolute = command.kind == MoveKind::AbsJoint;
@@ -238,7 +238,7 @@ MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, doubl
     return error;
 }
 
-bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
+bool MotionPath::solve(double s, const Joints& seed, Joints& out, std::optional<Pose>* tcp) const {
     if (isByWrist_) return solveByWrist(s, seed, out);
     if (mode_ != SingularityMode::Off) {
         const Pose base_tcp = flangeFor(curve_.at(s), s) * frames_.tool.tframe;
@@ -247,7 +247,10 @@ bool MotionPath::solve(double s, const Joints& seed, Joints& out) const {
                                                   between(start_.robax, end_.robax, s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
-    return kinematics_.inverseContinue(flangeFor(curve_.at(s), s), seed, out, armStart_ + armTravel_ * s);
+    const Pose pose = curve_.at(s);
+    if (!kinematics_.inverseContinue(flangeFor(pose, s), seed, out, armStart_ + armTravel_ * s)) return false;
+    if (tcp != nullptr) *tcp = pose;
+    return true;
 }
 
 std::optional<MotionError> MotionPath::checkNode(const PathNode& node) const {
@@ -348,21 +351,36 @@ const PathNode& MotionPath::nodeNear(double s) const {
     return s - (after - 1)->s < after->s - s ? *(after - 1) : *after;
 }
 
-Joints MotionPath::jointsAt(double s) const {
+Joints MotionPath::jointsAt(double s, std::optional<Pose>* tcp) const {
     if (s <= 0) return start_.robax;
     if (s >= 1) return end_.robax;
     if (!isCartesian_ || isEmpty_ || nodes_.size() < 2) return between(start_.robax, end_.robax, s);
     const PathNode& near = nodeNear(s);
     Joints joints;
-    return solve(s, near.joints, joints) ? joints : near.joints;
+    return solve(s, near.joints, joints, tcp) ? joints : near.joints;
 }
 
 ExternalAxes MotionPath::externalAt(double s) const {
     return s >= 1 ? end_.extax : externalNear(std::max(s, 0.0));
 }
 
+void MotionPath::setFrames(const FrameSetup& frames) {
+    frames_ = frames;
+    if (frames_.isMoved()) return;
+    const WorkObjectFrame& work = frames_.workObject;
+    const Pose object = work.uframe * work.oframe * frames_.displacement;
+    const Pose base = robot::inverse(frames_.baseFrame);
+    beforeTarget_ = base * (frames_.tool.robotHeld ? object : frames_.tool.tframe);
+    afterTarget_ = robot::inverse(frames_.tool.robotHeld ? frames_.tool.tframe : object);
+}
+
+Pose MotionPath::flangeOf(const Pose& target, const ExternalAxes& axes, const Pose* user) const {
+    if (user != nullptr || frames_.isMoved()) return frames_.toFlange(target, axes, user);
+    return beforeTarget_ * (frames_.tool.robotHeld ? target : robot::inverse(target)) * afterTarget_;
+}
+
 Pose MotionPath::flangeFor(const Pose& target, double s) const {
-    if (!frames_.isMoved()) return frames_.toFlange(target, start_.extax);
+    if (!frames_.isMoved()) return flangeOf(target, start_.extax);
     if (frames_.userCourse == nullptr) return frames_.toFlange(target, externalAt(s));
     const Pose user = (*frames_.userCourse)(s);
     return frames_.toFlange(target, externalAt(s), &user);

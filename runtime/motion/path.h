@@ -78,7 +78,8 @@ class MotionPath {
                                                   const JointTarget& start, const MoveCommand& command);
 
     /// Axis angles at s in [0, 1]; exactly on the line or circle, not an interpolation between grid nodes.
-    Joints jointsAt(double s) const;
+    /// `tcp`: the TCP there in the object frame, when it is known without the angles.
+    Joints jointsAt(double s, std::optional<Pose>* tcp = nullptr) const;
     ExternalAxes externalAt(double s) const;
     /// Ways of the external axes, added; deg and mm alike.
     double externalTravel() const;
@@ -86,6 +87,8 @@ class MotionPath {
     double armAngleAt(double s) const;
     /// deg by which it changes along a line or circle; 0 for joint moves.
     double armTravel() const { return armTravel_; }
+    /// Flange in base for a TCP in the object frame, with these external axes and user frame.
+    Pose flangeOf(const Pose& target, const ExternalAxes& axes, const Pose* user = nullptr) const;
     /// TCP in the object frame.
     Pose tcpAt(double s) const;
     /// Rates of the TCP in the object frame: mm and degrees per unit of s.
@@ -113,7 +116,7 @@ class MotionPath {
     Problem marchWithMode(const MoveCommand& command);
     Problem checkNode(const PathNode& node) const;
     Problem checkArrival(const MoveCommand& command) const;
-    bool solve(double s, const Joints& seed, Joints& out) const;
+    bool solve(double s, const Joints& seed, Joints& out, std::optional<Pose>* tcp = nullptr) const;
     bool solveByWrist(double s, const Joints& seed, Joints& out) const;
     bool missByWrist(const Joints& joints, const ExternalAxes& axes, const Vec3& goal,
                      double (&miss)[2]) const;
@@ -129,7 +132,10 @@ class MotionPath {
     const PathNode& nodeNear(double s) const;
 
     robot::Kinematics kinematics_;
+    void setFrames(const FrameSetup& frames);
     FrameSetup frames_;
+    /// The flange is before * target * after, unless something moves a frame; with a stationary tool before * target^-1 * after.
+    Pose beforeTarget_, afterTarget_;
     JointTarget start_, end_;
     bool isCartesian_ = false;
     bool isEmpty_ = true;

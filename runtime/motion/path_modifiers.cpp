@@ -1,5 +1,6 @@
 #include "runtime/motion/path_modifiers.h"
 
+#include "runtime/motion/path_frame.h"
 #include "runtime/motion/trajectory.h"
 
 #include <algorithm>
@@ -11,14 +12,18 @@ namespace {
 
 constexpr double kNothing = 1e-9;
 
-/// The direction of the path relative to the work object at a place, in the object frame; zero where the TCP hardly moves.
-Vec3 tangentAt(const PlannedMoment& at) {
+/// The mean direction of the path relative to the work object around a place, up to `reach` before and after it, in the object
+/// frame; zero where the TCP hardly moves.
+Vec3 tangentAt(const PlannedMoment& at, double reach) {
     const Trajectory& path = *at.path;
     if (path.isPause(at.run)) return {};
     constexpr double kStep = 0.01; // mm
     const Route& way = path.route(at.run);
-    const double low = std::max(0.0, std::min(at.s, way.length()) - kStep);
-    const double high = std::min(way.length(), low + 2 * kStep);
+    const double place = std::min(at.s, way.length());
+    // As far to both sides, so that on arcs the direction is that of the tangent.
+    const double step = std::max(kStep, std::min({reach, place, way.length() - place}));
+    const double low = std::max(0.0, place - step);
+    const double high = std::min(way.length(), low + 2 * step);
     if (!(high - low > kNothing)) return {};
     const Vec3 from = way.tcpOf(*at.frames, way.at(low), low).pos;
     const Vec3 to = way.tcpOf(*at.frames, way.at(high), high).pos;
@@ -40,15 +45,20 @@ Quat fromAxes(const Vec3& x, const Vec3& y, const Vec3& z) {
 
 } // namespace
 
-Quat PlannedMoment::pathFrame() const {
+Quat meanPathFrame(const PlannedMoment& at, double reach) {
+    const Pose& tcp = at.tcp;
     const Vec3 toolX = rotate(tcp.rot, {1, 0, 0});
-    Vec3 x = rotate(object.rot, tangentAt(*this));
+    Vec3 x = rotate(at.object.rot, tangentAt(at, reach));
     if (norm(x) < kNothing) x = toolX;
     Vec3 y = cross(rotate(tcp.rot, {0, 0, 1}), x);
     constexpr double kParallel = 1e-3; // the tool points along the path: its y axis takes the place
     if (norm(y) < kParallel) y = cross(cross(x, rotate(tcp.rot, {0, 1, 0})), x);
     y = y * (1 / norm(y));
     return fromAxes(x, y, cross(x, y));
+}
+
+Quat PlannedMoment::pathFrame() const {
+    return meanPathFrame(*this, 0);
 }
 
 double PlannedMoment::distanceFrom(std::size_t otherRun, double otherS) const {

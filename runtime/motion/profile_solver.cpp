@@ -8,15 +8,10 @@ namespace motion {
 namespace {
 
 constexpr double kUnlimited = 1e200;
-constexpr double kLeastSlack = 0.02; // of a bound, at the beginning
-constexpr double kMargin = 1e-7;     // of each limit, kept free for rounding
 constexpr double kJerkShare = 0.997; // in a cell the speed may be a little higher than at its ends
 
-using Three = std::array<double, 3>;
-
-double dot(const Three& a, const double* b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using Three = ProfileTerms::Three;
+constexpr double kMargin = ProfileTerms::kMargin;
 
 /// Accelerations that keep a row at a square of the speed.
 struct Range {
@@ -24,54 +19,16 @@ struct Range {
     bool contains(const Range& other) const { return low <= other.low && high >= other.high; }
 };
 
-Range rangeOf(double factor, double constant, double up, double down) {
-    if (std::abs(factor) < 1e-14) return {};
-    const double a = (up - constant) / factor;
-    const double b = (-down - constant) / factor;
+/// `inverse`: of the factor; 0 = the acceleration does not count.
+Range rangeOf(double inverse, double constant, double up, double down) {
+    if (inverse == 0) return {};
+    const double a = (up - constant) * inverse;
+    const double b = (-down - constant) * inverse;
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// Of the terms of a cell: parts of the matrix, and of the right side with the sign reversed.
-struct TermSums {
-    std::array<double, 3> diagonal{}, right{};
-    std::array<double, 2> next{};
-    double second = 0;
-};
-
-/// Adds what a term contributes to the three coefficients of its cell.
-template <class Term> void addTo(TermSums& sums, Term& term, double target) {
-    term.inverse = 1.0 / term.slack;
-    const auto ratio = term.force * term.inverse;
-    const auto pull = target * term.inverse + ratio * (term.value + term.slack);
-    // The gradients of both sides are row + fall * square and -row + fall * square.
-    const double both = ratio[0] + ratio[1];
-    const double odd = pull[0] - pull[1];
-    const Three& r = term.row;
-    Three even{both * r[0], both * r[1], both * r[2]}; // times row
-    Three shift{odd * r[0], odd * r[1], odd * r[2]};
-    if (term.isJerk) {
-        const double difference = ratio[0] - ratio[1];
-        const double push = pull[0] + pull[1];
-        Three q{}, cross{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            q[k] = term.fall * term.square[k];
-            even[k] += difference * q[k];
-            cross[k] = difference * r[k] + both * q[k];
-            shift[k] += push * q[k];
-        }
-        for (std::size_t k = 0; k < 3; ++k)
-            sums.diagonal[k] += cross[k] * q[k];
-        sums.next[0] += cross[0] * q[1];
-        sums.next[1] += cross[1] * q[2];
-        sums.second += cross[0] * q[2];
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        sums.diagonal[k] += even[k] * r[k];
-        sums.right[k] += shift[k];
-    }
-    sums.next[0] += even[0] * r[1];
-    sums.next[1] += even[1] * r[2];
-    sums.second += even[0] * r[2];
+double inverseOf(double factor) {
+    return std::abs(factor) < 1e-14 ? 0 : 1 / factor;
 }
 
 } // namespace
@@ -80,27 +37,32 @@ ProfileSolver::Result ProfileSolver::solve(const std::vector<ProfileCell>& cells
                                            double endWidth) {
     prepare(cells, start, endWidth);
     Result result;
-    begin();
+    const double* coefficients = coefficient_.data();
+    terms_.begin(coefficients, terms_.duration(coefficients));
     constexpr int kMostIterations = 90;
     constexpr double kGapShare = 6e-4; // of the duration
     constexpr double kBalanceShare = 1e-2;
-    const auto pairs = static_cast<double>(2 * terms_.size() + cap_.size());
+    const auto pairs = static_cast<double>(terms_.pairs());
     double share = 0.2;
     for (; result.iterations < kMostIterations; ++result.iterations) {
-        double duration = 0;
-        for (std::size_t i = 0; i < cells_; ++i)
-            duration += width_[i] / std::sqrt(coefficient_[i + 1]);
-        const bool isKept = evaluateTerms();
-        if (gap_ < kGapShare * duration && isKept && imbalance() < kBalanceShare * duration) break;
-        assemble(std::max(share * gap_, 0.2 * kGapShare * duration) / pairs);
+        const double duration = terms_.duration(coefficients);
+        const double target = std::max(share * terms_.gap(), 0.2 * kGapShare * duration) / pairs;
+        terms_.assemble(coefficients, target, matrix_);
+        if (terms_.gap() < kGapShare * duration && terms_.worstExcess(coefficients) <= 0 &&
+            terms_.imbalance(coefficients) < kBalanceShare * duration)
+            break;
         if (!factorAndSolve()) return result;
-        const Lengths lengths = stepLengths();
+        const ProfileTerms::Lengths lengths = terms_.stepLengths(coefficients, step_.data());
         const double length = std::min(lengths.speeds, lengths.forces);
         if (!(length > 1e-9)) return result;
-        advance(lengths);
+        terms_.advance(lengths);
+        for (std::size_t i = 0; i < cells_ + 2; ++i)
+            coefficient_[i] += lengths.speeds * step_[i];
+        if (startsAtRest_) coefficient_[0] = firstRatio_ * coefficient_[1];
+        coefficient_[cells_ + 1] = lastRatio_ * coefficient_[cells_];
         share = length > 0.8 ? 0.05 : length > 0.4 ? 0.3 : 1.0;
     }
-    result.excess = worstExcess();
+    result.excess = terms_.worstExcess(coefficients);
     result.isSolved = result.excess <= 1e-9;
     double place = 0;
     for (std::size_t i = 0; i <= cells_; ++i) {
@@ -123,10 +85,11 @@ void ProfileSolver::prepare(const std::vector<ProfileCell>& cells, const Profile
     width_.resize(cells_);
     for (std::size_t i = 0; i < cells_; ++i)
         width_[i] = cells[i].width;
-    coefficient_.assign(count, 0);
+    const std::size_t padded = ProfileTerms::paddedCount(count);
+    coefficient_.assign(padded, 1);
     fixed_.assign(count, 0);
-    for (auto* values : {&diagonal_, &next_, &second_, &right_, &step_})
-        values->assign(count, 0);
+    for (auto* values : {&matrix_.diagonal, &matrix_.next, &matrix_.second, &matrix_.right, &step_})
+        values->assign(padded, 0);
     const auto ratio = [](double width, double rest) {
         const double r = 2 * width / (3 * rest); // the square grows with the power 4/3 of the place
         return (1 - r) / (1 + r);
@@ -147,7 +110,9 @@ void ProfileSolver::prepare(const std::vector<ProfileCell>& cells, const Profile
         coefficient_[1] = square + start.a * width_.front();
     }
     coefficient_[count - 1] = lastRatio_ * coefficient_[count - 2];
-    terms_.clear();
+    weight_.assign(count, 0);
+    std::copy(width_.begin(), width_.end(), weight_.begin() + 1);
+    terms_.reset(cap_, weight_, fixed_);
     for (std::size_t i = 0; i < cells_; ++i)
         addTerms(i, cells[i]);
 }
@@ -236,8 +201,8 @@ void ProfileSolver::addTerms(std::size_t cell, const ProfileCell& data) {
     const double cap = data.mostSquare < 1e8 ? data.mostSquare : 1e8;
     if (cell == 0 || !data.isSmooth) addAccelerations(cell, data.first, first, cap);
     addAccelerations(cell, data.last, last, cap);
-    addJerks(cell, data.first, first, change, cap);
-    addJerks(cell, data.last, last, change, cap);
+    addJerks(cell, false, data.first, first, change, cap);
+    addJerks(cell, true, data.last, last, change, cap);
 }
 
 void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, const Lines& at, double cap) {
@@ -247,8 +212,9 @@ void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, 
     std::size_t tightFast = 0;
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
-        slow[i] = rangeOf(row.first, 0, row.up, row.down);
-        fast[i] = rangeOf(row.first, row.second * cap, row.up, row.down);
+        const double inverse = inverseOf(row.first);
+        slow[i] = rangeOf(inverse, 0, row.up, row.down);
+        fast[i] = rangeOf(inverse, row.second * cap, row.up, row.down);
         if (slow[i].high - slow[i].low < slow[tightSlow].high - slow[tightSlow].low) tightSlow = i;
         if (fast[i].high - fast[i].low < fast[tightFast].high - fast[tightFast].low) tightFast = i;
     }
@@ -263,40 +229,38 @@ void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, 
         if (isFlat ? std::abs(row.second) * cap < std::min(row.up, row.down)
                    : covers(tightSlow) || covers(tightFast))
             continue;
-        Term term;
-        term.at = cell;
-        const double unit = std::min(row.up, row.down);
+        const double unit = 1 / std::min(row.up, row.down);
+        Three line{};
         for (std::size_t k = 0; k < 3; ++k)
-            term.row[k] = (row.first * at.slope[k] + row.second * at.place[k]) / unit;
-        term.most = {std::min(row.up / unit, 1e6) * (1 - kMargin),
-                     std::min(row.down / unit, 1e6) * (1 - kMargin)};
-        term.limit = term.most;
-        addTerm(term);
+            line[k] = (row.first * at.slope[k] + row.second * at.place[k]) * unit;
+        terms_.addAcceleration(cell, folded(cell, line), std::min(row.up * unit, 1e6) * (1 - kMargin),
+                               std::min(row.down * unit, 1e6) * (1 - kMargin));
     }
 }
 
-void ProfileSolver::addJerks(std::size_t cell, const ProfileRows& rows, const Lines& at, const Three& change,
-                             double cap) {
+void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& rows, const Lines& at,
+                             const Three& change, double cap) {
+    const double root = std::sqrt(cap);
+    terms_.setEnd(cell, isLast, folded(cell, at.place), root * kJerkShare);
     double most = 1e7; // largest acceleration along the path
     for (std::size_t i = 0; i < rows.count; ++i)
         if (std::abs(rows.rows[i].first) > 1e-14)
             most = std::min(
                 most, (std::max(rows.rows[i].up, rows.rows[i].down) + std::abs(rows.rows[i].second) * cap) /
                           std::abs(rows.rows[i].first));
-    constexpr std::size_t kCorners = 6;
-    std::array<std::array<Range, kCorners>, ProfileRows::kMost> ranges;
+    // Changes of acceleration that keep a row lie around a middle that depends on acceleration and square of the speed, closest
+    // at the cap. A row is covered when those of the tightest row do not reach beyond them.
+    struct Middle {
+        double bySlope = 0, bySquare = 0, half = 0;
+    };
+    std::array<Middle, ProfileRows::kMost> middles;
     std::size_t tight = 0;
     double least = 0;
-    // With the square of the speed its bound falls; at the cap it is lowest.
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
         if (row.jerk > kUnlimited) continue;
-        const double bound = row.jerk / std::sqrt(cap);
-        for (std::size_t c = 0; c < kCorners; ++c) {
-            const double a = most * (static_cast<double>(c % 3) - 1);
-            const double square = c < 3 ? 0 : cap;
-            ranges[i][c] = rangeOf(row.first, 3 * row.second * a + row.third * square, bound, bound);
-        }
+        const double inverse = inverseOf(row.first);
+        middles[i] = {3 * row.second * inverse, row.third * inverse, row.jerk / root * std::abs(inverse)};
         const double stiffness = std::abs(row.first) / row.jerk;
         if (stiffness > least) {
             least = stiffness;
@@ -307,245 +271,64 @@ void ProfileSolver::addJerks(std::size_t cell, const ProfileRows& rows, const Li
         const ProfileRow& row = rows.rows[i];
         if (row.jerk > kUnlimited) continue;
         if (i != tight && least > 0) {
-            bool isCovered = std::abs(row.first) > 1e-14;
-            for (std::size_t c = 0; c < kCorners && isCovered; ++c)
-                isCovered = ranges[i][c].contains(ranges[tight][c]);
-            if (isCovered) continue;
+            const double apart = std::abs(middles[i].bySlope - middles[tight].bySlope) * most +
+                                 std::abs(middles[i].bySquare - middles[tight].bySquare) * cap;
+            if (middles[i].half > 0 && apart + middles[tight].half <= middles[i].half) continue;
         }
-        const double unit = row.jerk / std::sqrt(cap);
+        const double unit = row.jerk / root;
         if (std::abs(row.first) < 1e-14 && 3 * std::abs(row.second) * most + std::abs(row.third) * cap < unit)
             continue;
-        Term term;
-        term.at = cell;
-        term.isJerk = true;
+        const double share = 1 / unit;
+        Three line{};
         for (std::size_t k = 0; k < 3; ++k)
-            term.row[k] =
-                (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) / unit;
-        term.square = at.place;
-        const double bound = std::sqrt(cap) * kJerkShare;
-        term.most = {bound, bound};
-        addTerm(term);
+            line[k] =
+                (row.first * change[k] + 3 * row.second * at.slope[k] + row.third * at.place[k]) * share;
+        terms_.addJerk(cell, isLast, folded(cell, line));
     }
 }
 
 /// The outermost coefficients follow their neighbours when the path begins or ends at rest.
-void ProfileSolver::addTerm(Term term) {
-    for (auto* line : {&term.row, &term.square}) {
-        if (term.at == 0 && startsAtRest_) {
-            (*line)[1] += firstRatio_ * (*line)[0];
-            (*line)[0] = 0;
-        }
-        if (term.at + 1 == cells_) {
-            (*line)[1] += lastRatio_ * (*line)[2];
-            (*line)[2] = 0;
-        }
+Three ProfileSolver::folded(std::size_t cell, Three line) const {
+    if (cell == 0 && startsAtRest_) {
+        line[1] += firstRatio_ * line[0];
+        line[0] = 0;
     }
-    terms_.push_back(term);
-}
-
-void ProfileSolver::evaluate(Term& term) const {
-    const double* c = &coefficient_[term.at];
-    const double value = dot(term.row, c);
-    if (term.isJerk) {
-        const double inverse = 1 / std::sqrt(std::max(dot(term.square, c), 1e-12));
-        term.limit = term.most * inverse;
-        term.fall = 0.5 * term.limit[0] * inverse * inverse;
+    if (cell + 1 == cells_) {
+        line[1] += lastRatio_ * line[2];
+        line[2] = 0;
     }
-    term.value = Pair{value, -value} - term.limit;
-}
-
-/// Whether all limits are kept.
-bool ProfileSolver::evaluateTerms() {
-    Pair worst{-1, -1};
-    Pair sum{};
-    for (Term& term : terms_) {
-        evaluate(term);
-        const Pair excess = term.value - term.limit * (kMargin / 2);
-        worst = excess > worst ? excess : worst;
-        sum += term.slack * term.force;
-    }
-    gap_ = sum[0] + sum[1];
-    bool isKept = worst[0] <= 0 && worst[1] <= 0;
-    for (std::size_t i = 0; i < cap_.size(); ++i) {
-        gap_ += capSlack_[i] * capForce_[i];
-        if (fixed_[i] == 0 && coefficient_[i] - cap_[i] > cap_[i] * kMargin / 2) isKept = false;
-    }
-    return isKept;
-}
-
-void ProfileSolver::begin() {
-    const std::size_t count = coefficient_.size();
-    for (auto* values : {&capSlack_, &capForce_, &capSlackStep_, &capForceStep_})
-        values->assign(count, 0);
-    double duration = 0;
-    for (std::size_t i = 0; i < cells_; ++i)
-        duration += width_[i] / std::sqrt(coefficient_[i + 1]);
-    const double target = 0.5 * duration / static_cast<double>(2 * terms_.size() + count);
-    for (std::size_t i = 0; i < count; ++i) {
-        capSlack_[i] = std::max(cap_[i] - coefficient_[i], kLeastSlack * cap_[i]);
-        capForce_[i] = fixed_[i] != 0 ? 0 : target / capSlack_[i];
-    }
-    for (Term& term : terms_) {
-        evaluate(term);
-        for (std::size_t side = 0; side < 2; ++side) {
-            term.slack[side] = std::max(std::abs(term.value[side]), 0.1);
-            term.force[side] = target / term.slack[side];
-        }
-    }
-}
-
-void ProfileSolver::assemble(double target) {
-    target_ = target;
-    const std::size_t count = coefficient_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        next_[i] = second_[i] = 0;
-        if (fixed_[i] != 0) {
-            diagonal_[i] = right_[i] = 0;
-            continue;
-        }
-        const double weight = width_[std::min(i, cells_) - 1];
-        const double root = std::sqrt(coefficient_[i]);
-        const double slope = -0.5 * weight / (coefficient_[i] * root);
-        const double ratio = capForce_[i] / capSlack_[i];
-        const double miss = coefficient_[i] - cap_[i] + capSlack_[i];
-        diagonal_[i] = -1.5 * slope / coefficient_[i] + ratio;
-        right_[i] = -slope - target / capSlack_[i] - ratio * miss;
-    }
-    // The terms of a cell follow each other: their sums are added once.
-    for (std::size_t i = 0; i < terms_.size();) {
-        const std::size_t at = terms_[i].at;
-        TermSums sums;
-        for (; i < terms_.size() && terms_[i].at == at; ++i)
-            addTo(sums, terms_[i], target);
-        for (std::size_t k = 0; k < 3; ++k) {
-            diagonal_[at + k] += sums.diagonal[k];
-            right_[at + k] -= sums.right[k];
-        }
-        next_[at] += sums.next[0];
-        next_[at + 1] += sums.next[1];
-        second_[at] += sums.second;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        if (fixed_[i] == 0) continue;
-        diagonal_[i] = 1;
-        right_[i] = next_[i] = second_[i] = 0;
-        if (i > 0) next_[i - 1] = 0;
-        if (i > 1) second_[i - 2] = 0;
-    }
+    return line;
 }
 
 /// Five diagonals, positive definite.
 bool ProfileSolver::factorAndSolve() {
-    const std::size_t count = diagonal_.size();
+    auto& [diagonal, next, second, right] = matrix_;
+    const std::size_t count = cells_ + 2;
     for (std::size_t i = 0; i < count; ++i) {
-        const double pivot = diagonal_[i];
+        const double pivot = diagonal[i];
         if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-        const double one = next_[i] / pivot;
-        const double two = second_[i] / pivot;
+        const double inverse = 1 / pivot;
+        const double one = next[i] * inverse;
+        const double two = second[i] * inverse;
         if (i + 1 < count) {
-            diagonal_[i + 1] -= one * next_[i];
-            next_[i + 1] -= one * second_[i];
-            right_[i + 1] -= one * right_[i];
+            diagonal[i + 1] -= one * next[i];
+            next[i + 1] -= one * second[i];
+            right[i + 1] -= one * right[i];
         }
         if (i + 2 < count) {
-            diagonal_[i + 2] -= two * second_[i];
-            right_[i + 2] -= two * right_[i];
+            diagonal[i + 2] -= two * second[i];
+            right[i + 2] -= two * right[i];
         }
-        next_[i] = one;
-        second_[i] = two;
-        right_[i] /= pivot;
+        next[i] = one;
+        second[i] = two;
+        right[i] *= inverse;
     }
     for (std::size_t i = count; i-- > 0;) {
-        step_[i] = right_[i];
-        if (i + 1 < count) step_[i] -= next_[i] * step_[i + 1];
-        if (i + 2 < count) step_[i] -= second_[i] * step_[i + 2];
+        step_[i] = right[i];
+        if (i + 1 < count) step_[i] -= next[i] * step_[i + 1];
+        if (i + 2 < count) step_[i] -= second[i] * step_[i + 2];
     }
     return true;
-}
-
-/// The longest step, at most 1, that keeps slacks, forces and squares of speeds positive.
-ProfileSolver::Lengths ProfileSolver::stepLengths() {
-    constexpr double kToBorder = 0.97;
-    Lengths lengths{1 / kToBorder, 1 / kToBorder};
-    const auto keep = [&](double& length, double value, double step) {
-        if (step < 0) length = std::min(length, -value / step);
-    };
-    const std::size_t count = coefficient_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (fixed_[i] != 0) continue;
-        keep(lengths.speeds, coefficient_[i], step_[i]);
-        keep(lengths.speeds, capSlack_[i],
-             capSlackStep_[i] = cap_[i] - coefficient_[i] - capSlack_[i] - step_[i]);
-        keep(lengths.forces, capForce_[i],
-             capForceStep_[i] =
-                 target_ / capSlack_[i] - capForce_[i] - capForce_[i] / capSlack_[i] * capSlackStep_[i]);
-    }
-    Pair slackShrink{}, forceShrink{}; // largest shares that are lost
-    for (Term& term : terms_) {
-        const double* step = &step_[term.at];
-        const double along = dot(term.row, step);
-        Pair change{along, -along};
-        if (term.isJerk) change += term.fall * dot(term.square, step);
-        term.slackStep = -(term.value + term.slack) - change;
-        term.forceStep = (target_ - term.force * term.slackStep) * term.inverse - term.force;
-        const Pair slackLoss = -term.slackStep * term.inverse;
-        const Pair forceLoss = -term.forceStep / term.force;
-        slackShrink = slackLoss > slackShrink ? slackLoss : slackShrink;
-        forceShrink = forceLoss > forceShrink ? forceLoss : forceShrink;
-    }
-    const auto most = [](double length, const Pair& shrink) {
-        return std::min(1.0, kToBorder * std::min(length, 1 / std::max({shrink[0], shrink[1], 1e-300})));
-    };
-    return {most(lengths.speeds, slackShrink), most(lengths.forces, forceShrink)};
-}
-
-void ProfileSolver::advance(const Lengths& lengths) {
-    const std::size_t count = coefficient_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (fixed_[i] != 0) continue;
-        coefficient_[i] += lengths.speeds * step_[i];
-        capSlack_[i] += lengths.speeds * capSlackStep_[i];
-        capForce_[i] += lengths.forces * capForceStep_[i];
-    }
-    for (Term& term : terms_) {
-        term.slack += lengths.speeds * term.slackStep;
-        term.force += lengths.forces * term.forceStep;
-    }
-    if (startsAtRest_) coefficient_[0] = firstRatio_ * coefficient_[1];
-    coefficient_[count - 1] = lastRatio_ * coefficient_[count - 2];
-}
-
-/// How far the forces are from holding the coefficients in balance, as the time that a change by their own size gains, s.
-double ProfileSolver::imbalance() {
-    const std::size_t count = coefficient_.size();
-    step_.assign(count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (fixed_[i] != 0) continue;
-        const double weight = width_[std::min(i, cells_) - 1];
-        step_[i] = capForce_[i] - 0.5 * weight / (coefficient_[i] * std::sqrt(coefficient_[i]));
-    }
-    for (const Term& term : terms_) {
-        const double odd = term.force[0] - term.force[1];
-        const double even = term.isJerk ? term.fall * (term.force[0] + term.force[1]) : 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            step_[term.at + k] += odd * term.row[k] + even * term.square[k];
-    }
-    double sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (fixed_[i] == 0) sum += std::abs(step_[i]) * coefficient_[i];
-    return sum;
-}
-
-/// Largest limit that is passed, as a share of it.
-double ProfileSolver::worstExcess() const {
-    double worst = -1;
-    for (std::size_t i = 0; i < cap_.size(); ++i)
-        if (fixed_[i] == 0) worst = std::max(worst, (coefficient_[i] - cap_[i]) / cap_[i] - kMargin / 2);
-    for (const Term& term : terms_) {
-        const Pair excess = term.value / term.limit;
-        worst = std::max({worst, excess[0] - kMargin / 2, excess[1] - kMargin / 2});
-    }
-    return worst;
 }
 
 } // namespace motion

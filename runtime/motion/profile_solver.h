@@ -3,6 +3,8 @@
 // speed is a quadratic spline over the place, so that speed and acceleration are continuous and jerk changes at borders of
 // cells only. Found by an interior-point method; the work grows in proportion to the number of cells. Knows no robot.
 
+#include "runtime/motion/profile_terms.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,17 +14,17 @@ namespace motion {
 
 /// How one quantity (an axis, or the TCP) depends on the place, and its limits.
 struct ProfileRow {
-    double first = 0, second = 0, third = 0; ///< derivatives by the place
-    double up = 1e300, down = 1e300;         ///< largest acceleration in both directions, per s^2
-    double jerk = 1e300;                     ///< per s^3
+    double first, second, third; ///< derivatives by the place
+    double up, down;             ///< largest acceleration in both directions, per s^2; 1e300 = unlimited
+    double jerk;                 ///< per s^3; 1e300 = unlimited
 };
 
 /// The quantities at one place.
 struct ProfileRows {
     static constexpr std::size_t kMost = 14;
-    std::array<ProfileRow, kMost> rows;
+    std::array<ProfileRow, kMost> rows; // the first ones are set
     std::size_t count = 0;
-    ProfileRows() = default;
+    ProfileRows() {} // NOLINT: `rows` remains as it is, cells are created often
     ProfileRows(const ProfileRows& other) : count(other.count) {
         std::copy_n(other.rows.begin(), count, rows.begin());
     }
@@ -70,16 +72,6 @@ class ProfileSolver {
     Result solve(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth);
 
   private:
-    using Pair = double __attribute__((vector_size(16))); // for both sides of a term, calculated together
-    struct Term { // row * coefficients lies between two limits, which fall with the speed when it is a jerk
-        std::size_t at = 0;
-        bool isJerk = false;
-        double fall = 0;                       // of the limits of a jerk by the square of the speed
-        std::array<double, 3> row{}, square{}; // square: of the speed at the place of the term
-        Pair most{};                           // up and down
-        Pair limit{}, value{}; // at the present coefficients; the value is below 0 when the limit is kept
-        Pair slack{}, force{}, inverse{}, slackStep{}, forceStep{}; // inverse: of the slack
-    };
     struct Lines {
         std::array<double, 3> place{},
             slope{}; // of a node: square of the speed and acceleration by coefficients
@@ -90,30 +82,18 @@ class ProfileSolver {
     void setGuess(const std::vector<ProfileCell>& cells, const ProfileStart& start, double endWidth);
     void addTerms(std::size_t cell, const ProfileCell& data);
     void addAccelerations(std::size_t cell, const ProfileRows& rows, const Lines& at, double capSquare);
-    void addJerks(std::size_t cell, const ProfileRows& rows, const Lines& at,
+    void addJerks(std::size_t cell, bool isLast, const ProfileRows& rows, const Lines& at,
                   const std::array<double, 3>& change, double capSquare);
-    void addTerm(Term term);
-    void evaluate(Term& term) const;
-    void begin();
-    bool evaluateTerms();
-    void assemble(double target);
+    ProfileTerms::Three folded(std::size_t cell, ProfileTerms::Three line) const;
     bool factorAndSolve();
-    struct Lengths { // of a step
-        double speeds = 0, forces = 0;
-    };
-    Lengths stepLengths();
-    void advance(const Lengths& lengths);
-    double imbalance();
-    double worstExcess() const;
 
     std::size_t cells_ = 0;
-    std::vector<double> width_, coefficient_, cap_, capSlack_, capForce_, capSlackStep_, capForceStep_;
-    std::vector<Term> terms_;
-    double gap_ = 0; // what is still to be gained, s
-    std::vector<double> diagonal_, next_, second_, right_, step_;
+    ProfileTerms terms_;
+    std::vector<double> width_, cap_, weight_;
     std::vector<char> fixed_;
+    std::vector<double> coefficient_, step_; // as many as whole blocks of terms need
+    ProfileMatrix matrix_;
     double firstRatio_ = 1, lastRatio_ = 1; // of the outermost coefficients to their neighbours, at rest
-    double target_ = 0;                     // product of slack and force that is aimed at
     bool startsAtRest_ = true;
 };
 

@@ -283,10 +283,11 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const bool inCorner = middle > l.end();
     stretch.leg = legAt(middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
-    stretch.middle = pointAt(middle, seed);
+    std::optional<Pose> beforeTcp, hereTcp, afterTcp;
+    stretch.middle = pointAt(middle, seed, &hereTcp);
     stretch.first = stretch.second = robot::Joints::zeros(seed.size());
-    const RoutePoint low = pointAt(middle - step, stretch.middle.joints);
-    const RoutePoint high = pointAt(middle + step, stretch.middle.joints);
+    const RoutePoint low = pointAt(middle - step, stretch.middle.joints, &beforeTcp);
+    const RoutePoint high = pointAt(middle + step, stretch.middle.joints, &afterTcp);
     for (std::size_t i = 0; i < stretch.first.size(); ++i) {
         stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
         stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
@@ -299,9 +300,9 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     }
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
-    const Pose before = tcpOf(frames, low, middle - step);
-    const Pose here = tcpOf(frames, stretch.middle, middle);
-    const Pose after = tcpOf(frames, high, middle + step);
+    const Pose before = beforeTcp ? *beforeTcp : tcpOf(frames, low, middle - step);
+    const Pose here = hereTcp ? *hereTcp : tcpOf(frames, stretch.middle, middle);
+    const Pose after = afterTcp ? *afterTcp : tcpOf(frames, high, middle + step);
     if (inCorner && corner(own).kind == CornerKind::Space) {
         stretch.tcpRate = 1;
     } else if (!inCorner && l.path->isCartesian()) {
@@ -353,14 +354,16 @@ Pose Route::tcpOf(const FrameSetup& frames, const RoutePoint& point, double plac
     return frames.fromFlange(flange, point.extax, user ? &*user : nullptr);
 }
 
-Pose Route::flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
+Pose Route::flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes,
                       double place) const {
-    if (frames.userCourse == nullptr) return frames.toFlange(target, axes);
+    if (path.frames().userCourse == nullptr) return path.flangeOf(target, axes);
     const auto user = userFrameAt(place);
-    return frames.toFlange(target, axes, user ? &*user : nullptr);
+    return path.flangeOf(target, axes, user ? &*user : nullptr);
 }
 
 std::size_t Route::ownLeg(double place) const {
+    if (!legs_.empty() && place >= legs_.back().begin)
+        return legCount() - 1; // mostly of a leg that is appended
     const auto after = std::upper_bound(legs_.begin(), legs_.end(), place,
                                         [](double value, const Leg& l) { return value < l.begin; });
     const auto index = after == legs_.begin() ? 0 : static_cast<std::size_t>(after - legs_.begin()) - 1;
@@ -373,13 +376,14 @@ RoutePoint Route::at(double place) const {
                                               : stretches_[stretchAt(inside)].middle.joints);
 }
 
-RoutePoint Route::pointAt(double place, const Joints& seed) const {
+RoutePoint Route::pointAt(double place, const Joints& seed, std::optional<Pose>* tcp) const {
     const std::size_t number = ownLeg(place);
-    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, seed)
-                                                          : pointOnLeg(number, place, seed);
+    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, seed, tcp)
+                                                          : pointOnLeg(number, place, seed, tcp);
 }
 
-RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& seed) const {
+RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& seed,
+                             std::optional<Pose>* tcp) const {
     const Leg& l = leg(number);
     const double distance = place - l.pathBegin();
     const double parameter = l.lengths.parameterAt(distance);
@@ -404,19 +408,21 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
         if (atEnd) frames = &leg(number + 1);
     }
     if (turning == nullptr && !armAngle && !isCarried) {
-        point.joints = l.path->jointsAt(parameter);
+        point.joints = l.path->jointsAt(parameter, tcp);
         return point;
     }
     Pose pose = poseIn(l, *frames, distance);
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
     point.joints = seed;
     point.isSolved = l.path->kinematics().inverseContinue(
-        flangeFor(frames->path->frames(), pose, point.extax, place), seed, point.joints,
+        flangeFor(*frames->path, pose, point.extax, place), seed, point.joints,
         armAngle ? *armAngle : l.path->armAngleAt(parameter));
+    if (tcp != nullptr && point.isSolved && frames == &l) *tcp = pose;
     return point;
 }
 
-RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& seed) const {
+RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& seed,
+                                std::optional<Pose>* tcp) const {
     const Corner& c = corner(number);
     const Leg& next = leg(number + 1);
     const double x = c.lengths.parameterAt(place - c.begin);
@@ -437,8 +443,9 @@ RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& 
     }
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved = next.path->kinematics().inverseContinue(
-        flangeFor(next.path->frames(), pose, point.extax, place), seed, point.joints, armAngle);
+    point.isSolved = next.path->kinematics().inverseContinue(flangeFor(*next.path, pose, point.extax, place),
+                                                             seed, point.joints, armAngle);
+    if (tcp != nullptr && point.isSolved) *tcp = pose;
     return point;
 }
 

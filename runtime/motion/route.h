@@ -108,9 +108,12 @@ class Route {
 
     const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
     std::size_t ownLeg(double place) const;
-    RoutePoint pointAt(double place, const Joints& seed) const;
-    RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed) const;
-    RoutePoint pointInCorner(std::size_t number, double place, const Joints& seed) const;
+    /// `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known without the angles.
+    RoutePoint pointAt(double place, const Joints& seed, std::optional<Pose>* tcp = nullptr) const;
+    RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed,
+                          std::optional<Pose>* tcp) const;
+    RoutePoint pointInCorner(std::size_t number, double place, const Joints& seed,
+                             std::optional<Pose>* tcp) const;
 
     void makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
     static void curveInSpace(Corner& corner, const Leg& a, const Leg& b);
@@ -126,8 +129,7 @@ class Route {
     bool measure(RouteStretch& stretch, const Joints& seed) const;
     bool isShaped(double place) const;
     std::optional<Pose> userFrameAt(double place) const;
-    Pose flangeFor(const FrameSetup& frames, const Pose& target, const ExternalAxes& axes,
-                   double place) const;
+    Pose flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes, double place) const;
 
     bool isSmooth_ = false;
     std::function<Pose(double)> carrier_;

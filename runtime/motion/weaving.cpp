@@ -1,5 +1,7 @@
 #include "runtime/motion/weaving.h"
 
+#include "runtime/motion/path_frame.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,26 +33,76 @@ Corners cornersOf(const WeavePattern& p) {
     return {{middle, left, middle, right}, 4};
 }
 
-/// Between the corners the way along the path is in proportion to the way across it.
-Vec3 polygonAt(const WeavePattern& p, double phase) {
-    const Corners corners = cornersOf(p);
-    const auto next = [&](std::size_t i) { return corners.list[(i + 1) % corners.count].at; };
+/// A straight piece of the pattern and the mm of path on which it is covered.
+struct Side {
+    Vec3 from, to;
+    double length = 0;
+};
+struct Sides {
+    std::array<Side, 8> list;
+    std::size_t count = 0;
+    double length = 0;
+    void add(const Side& side) {
+        list[count++] = side;
+        length += side.length;
+    }
+};
+
+/// mm across the path in a cycle.
+double wayOf(const Corners& corners) {
     double way = 0;
     for (std::size_t i = 0; i < corners.count; ++i)
-        way += norm(next(i) - corners.list[i].at);
-    if (!(way > 0)) return corners.list[0].at;
-    const double perWay = (p.length - p.dwells()) / way;
-    double left = phase * p.length;
+        way += norm(corners.list[(i + 1) % corners.count].at - corners.list[i].at);
+    return way;
+}
+
+/// Between the corners the way along the path is in proportion to the way across it.
+Sides sidesOf(const WeavePattern& p) {
+    const Corners corners = cornersOf(p);
+    const double way = wayOf(corners);
+    const double perWay = way > 0 ? (p.length - p.dwells()) / way : 0;
+    Sides sides;
     for (std::size_t i = 0; i < corners.count; ++i) {
         const Corner& corner = corners.list[i];
-        if (left <= corner.dwell) return corner.at;
-        left -= corner.dwell;
-        const Vec3 side = next(i) - corner.at;
-        const double length = norm(side) * perWay;
-        if (left < length) return corner.at + side * (left / length);
-        left -= length;
+        const Vec3& next = corners.list[(i + 1) % corners.count].at;
+        sides.add({corner.at, corner.at, corner.dwell});
+        sides.add({corner.at, next, norm(next - corner.at) * perWay});
     }
-    return corners.list[0].at;
+    return sides;
+}
+
+/// The sum of the places on the pattern over the mm of path from the beginning of a cycle to `left` mm after it.
+Vec3 sumUpTo(const Sides& sides, double left) {
+    Vec3 sum;
+    const auto add = [&](double until) {
+        for (std::size_t i = 0; i < sides.count && until > 0; ++i) {
+            const Side& side = sides.list[i];
+            const double part = std::min(until, side.length);
+            if (part > 0) sum = sum + (side.from + (side.to - side.from) * (0.5 * part / side.length)) * part;
+            until -= part;
+        }
+    };
+    const double cycles = std::floor(left / sides.length);
+    add(sides.length);
+    sum = sum * cycles;
+    add(left - cycles * sides.length);
+    return sum;
+}
+
+Vec3 polygonAt(const WeavePattern& p, double phase) {
+    const Sides sides = sidesOf(p);
+    double left = phase * p.length;
+    if (!(sides.length > 0)) return sides.list[0].from;
+    // The mean over a short piece of the path: straight as before between the corners, a parabola at them.
+    if (p.rounding > 0)
+        return (sumUpTo(sides, left + 0.5 * p.rounding) - sumUpTo(sides, left - 0.5 * p.rounding)) *
+               (1 / p.rounding);
+    for (std::size_t i = 0; i < sides.count; ++i) {
+        const Side& side = sides.list[i];
+        if (left < side.length) return side.from + (side.to - side.from) * (left / side.length);
+        left -= side.length;
+    }
+    return sides.list[0].from;
 }
 
 } // namespace
@@ -59,6 +111,16 @@ double WeavePattern::dwells() const {
     if (shape == WeaveShape::Circle) return 0;
     const double middle = shape == WeaveShape::Triangle ? dwellCenter : 2 * dwellCenter;
     return dwellLeft + middle + dwellRight;
+}
+
+void WeavePattern::roundFor(double speed) {
+    constexpr double kAcceleration = 10'000; // mm/s^2, about what the axes of an arm give its TCP
+    constexpr double kMostOfCycle = 0.25;
+    rounding = 0;
+    const double straight = length - dwells();
+    if (shape == WeaveShape::Circle || !isWeaving() || !(straight > 0)) return;
+    const double turn = 2 * wayOf(cornersOf(*this)) / straight; // largest change of mm across by mm of path
+    rounding = std::min(speed * speed * turn / kAcceleration, kMostOfCycle * length);
 }
 
 Vec3 WeavePattern::at(double phase) const {
@@ -86,8 +148,11 @@ void Weaving::advance(const PlannedMoment& planned) {
         blend_ = 0.25 * pattern.length;
         // The path frame has y to the right and z into the workpiece.
         const Vec3 offset = pattern.at(phase_);
-        target = rotate(planned.pathFrame(), {offset.x, -offset.y, -offset.z});
-        if (weave->isLast) target = target * std::min(1.0, planned.toEnd / blend_);
+        target = rotate(meanPathFrame(planned, 0.5 * blend_), {offset.x, -offset.y, -offset.z});
+        if (weave->isLast) { // without a sudden change of its rate
+            const double share = std::clamp(planned.toEnd / blend_, 0.0, 1.0);
+            target = target * (share * share * (3 - 2 * share));
+        }
     }
     if (hasJumped) return shown_.jumpTo(planned.time, target, blend_);
     shown_.advance(planned.time, target, std::fabs(step.way));

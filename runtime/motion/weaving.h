@@ -21,11 +21,15 @@ struct WeavePattern {
     double tilt = 0;        ///< deg about y
     double orientation = 0; ///< deg about x
     double bias = 0;        ///< mm to the left (Zigzag)
+    double rounding = 0;    ///< mm of path on which the TCP turns at a corner of the pattern (not Circle)
     friend bool operator==(const WeavePattern&, const WeavePattern&) = default;
 
     bool isWeaving() const { return shape != WeaveShape::None && length > 0; }
     /// mm of path of all dwells of a cycle; less than `length`.
     double dwells() const;
+    /// Sets the rounding so that at this speed along the path, mm/s, turning takes no more acceleration across it than
+    /// arms have, as far as the pattern keeps its shape.
+    void roundFor(double speed);
     /// In the weave frame; `phase` in cycles.
     Vec3 at(double phase) const;
 };

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
@@ -49,7 +50,7 @@ void resolveMove(benchmark::State& state) {
 BENCHMARK(resolveMove);
 
 /// A move appended to a path of `range` moves, whose plan is adapted.
-void appendMove(benchmark::State& state) {
+void appendTo(benchmark::State& state, Planner planner) {
     const robot::RobotModel model = arm();
     const robot::Kinematics kinematics(model);
     std::vector<std::shared_ptr<const MotionPath>> paths;
@@ -62,9 +63,12 @@ void appendMove(benchmark::State& state) {
         paths.push_back(std::make_shared<const MotionPath>(std::move(*path)));
     }
     int64_t stretches = 0;
+    std::optional<Trajectory> made;
+    TrajectoryOptions options;
+    options.planner = planner;
     for (auto _ : state) {
         state.PauseTiming();
-        Trajectory trajectory(model, {}, {}, kStart, 0);
+        Trajectory& trajectory = made.emplace(model, ExternalAxisModels{}, options, kStart, 0);
         const auto before = static_cast<std::size_t>(state.range(0));
         for (std::size_t n = 0; n < before; ++n)
             trajectory.append(paths[n], commands[n], 0);
@@ -75,7 +79,14 @@ void appendMove(benchmark::State& state) {
     }
     state.counters["stretches"] = static_cast<double>(stretches) / static_cast<double>(state.iterations());
 }
+void appendMove(benchmark::State& state) {
+    appendTo(state, Planner::Measured);
+}
 BENCHMARK(appendMove)->Arg(1)->Arg(10)->Arg(60);
+void appendOptimal(benchmark::State& state) {
+    appendTo(state, Planner::Optimal);
+}
+BENCHMARK(appendOptimal)->Arg(1)->Arg(10)->Unit(benchmark::kMicrosecond);
 
 /// Motion through zones, a sample each 4 ms, with the events of the moves. Counter: seconds of motion per second.
 void simulate(benchmark::State& state) {
@@ -115,13 +126,16 @@ void solveProfile(benchmark::State& state) {
     }
     ProfileSolver solver;
     int64_t cells = 0;
+    int iterations = 0;
     for (auto _ : state) {
         const ProfileGrid grid = gridOf(path, {});
         auto found = solver.solve(grid.cells, grid.start, grid.endWidth);
         benchmark::DoNotOptimize(found);
+        iterations = found.iterations;
         cells += static_cast<int64_t>(grid.cells.size());
     }
     state.SetItemsProcessed(cells);
+    state.counters["iterations"] = iterations;
 }
 BENCHMARK(solveProfile)->Arg(20)->Arg(200)->Arg(2000);
 

@@ -57,7 +57,9 @@ Status weavePattern(TaskCore* task, const data::Weavedata& data, double speed,
     pattern.orientation = data.weave_ori;
     pattern.bias = data.weave_bias;
     const char* problem = problemOf(pattern);
-    return problem == nullptr ? kOk : fail(task, err::ERR_ARGVALERR, problem);
+    if (problem != nullptr) return fail(task, err::ERR_ARGVALERR, problem);
+    pattern.roundFor(speed);
+    return kOk;
 }
 
 } // namespace rt::lib

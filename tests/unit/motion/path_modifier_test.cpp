@@ -320,6 +320,36 @@ TEST_CASE("weaving is the same on the path whatever stops and slows the arm", "[
     }
 }
 
+TEST_CASE("a weaving pattern turns within 10 m/s^2 and keeps its sides", "[motion][modifier]") {
+    const double speed = 20; // mm/s
+    for (const WeaveShape shape : {WeaveShape::Zigzag, WeaveShape::Vee, WeaveShape::Triangle}) {
+        WeavePattern sharp;
+        sharp.shape = shape;
+        sharp.length = 8;
+        sharp.width = 6;
+        sharp.height = 2;
+        sharp.dwellLeft = 1;
+        sharp.direction = 20;
+        WeavePattern rounded = sharp;
+        rounded.roundFor(speed);
+        const double step = rounded.rounding / 20; // mm of path
+        REQUIRE(step > 0);
+        double most = 0;
+        for (double s = 0; s < 2 * sharp.length; s += step) {
+            const auto at = [&](double mm) { return rounded.at(mm / sharp.length); };
+            const Vec3 bend = (at(s + step) - at(s) * 2 + at(s - step)) * (speed * speed / (step * step));
+            most = std::max(most, norm(bend));
+            // A point of a V with sides of 2.1 mm a mm of path is moved by a quarter of that and of the rounding.
+            CHECK(norm(rounded.at(s / sharp.length) - sharp.at(s / sharp.length)) < 0.55 * rounded.rounding);
+        }
+        CHECK(most <= 10'000 * 1.001);
+        CHECK(most > 4'000); // a turn back from side to side takes all of it, others take half
+        // In the middle of a side nothing is rounded.
+        const double middle = (1 - 0.5 / 8) * sharp.length;
+        CHECK(isNear(rounded.at(middle / sharp.length), sharp.at(middle / sharp.length), 1e-9));
+    }
+}
+
 TEST_CASE("a stationary tool: the work object moves so that the TCP is displaced in it",
           "[motion][modifier]") {
     MotionSystem system = makeSystem();

@@ -6,7 +6,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 
@@ -187,7 +189,12 @@ TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]"
     const long count = soak != nullptr ? std::atol(soak) : kUsual;
     std::mt19937_64 random(soak != nullptr ? std::random_device()() : 20261123);
     long above = 0;
+    auto report = std::chrono::steady_clock::now();
     for (long n = 0; n < count; ++n) {
+        if (soak != nullptr && std::chrono::steady_clock::now() >= report) {
+            std::fprintf(stderr, "%ld of %ld programs\n", n, count);
+            report += std::chrono::seconds(10);
+        }
         const uint64_t seed = random();
         INFO("seed " << seed);
         random.seed(seed);
