@@ -10,7 +10,7 @@ namespace rt::lib {
 inline constexpr Time kShift = 8 * (3600 * kSecond);
 
 /// The wait that began at `since` has lasted a shift, and it is possible to find out whether it can end: the run does not
-/// last until a given time, and nobody looks on.
+/// last until a given time, and not at the pace of the wall clock.
 bool mayNeverEnd(const Task& task, Time since);
 
 /// Waits until the next look, in which every other such wait looks again as well. `hopeless`: every task waits, and nothing
