@@ -193,12 +193,16 @@ std::string Controller::whereTasksAre(const char* verb) const {
 /// Status 0 also when a program did not come to the end of main: then the log says what ended it.
 void Controller::reportEnds() {
     std::string text;
+    bool isCycleLeft = false;
     for (const auto& task : tasks_) {
         if (!isNormal(task) || task->endReason().empty()) continue;
         const SourcePlace& place = task->endPlace();
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", task->name(), task->endReason());
         if (!place.module.empty()) text += fmt::format(" in {}:{}", place.module, place.line);
+        isCycleLeft = isCycleLeft || task->endReason() == "ExitCycle";
     }
+    // A server that begins again so is expected to go on; a run has one cycle unless it is asked for more.
+    if (isCycleLeft) text += ". It was the last cycle of this run; with --cycles=0 main begins again";
     if (!text.empty()) log_.write(EventId::EndedEarly, nullptr, {text + "."});
 }
 

@@ -23,6 +23,18 @@ double slowTime(const Course& course, double from, double share) {
     return high;
 }
 
+/// Where, on the route of the leader, the first of the robots that move together comes to its zone at the end.
+double firstZoneEntry(const Run& run, std::size_t companions) {
+    const Route& way = run.route();
+    const std::size_t last = way.legCount() - 1;
+    double place = way.zoneEntry(last);
+    for (std::size_t i = 0; i < companions; ++i) {
+        const double entry = run.companions().route(i).zoneEntry(last);
+        place = std::min(place, run.companions().leaderPlace(i, way, entry));
+    }
+    return place;
+}
+
 } // namespace
 
 Trajectory::Trajectory(const robot::RobotModel& model, const ExternalAxisModels& external,
@@ -441,9 +453,8 @@ std::optional<double> Trajectory::decisionTime() const {
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
     if (options_.planner == Planner::Optimal) return e.run->decisionTime();
-    const Route& way = e.run->route();
     return std::min(e.run->course().lastBraking(),
-                    courseTime(count() - 1, way.zoneEntry(way.legCount() - 1)));
+                    courseTime(count() - 1, firstZoneEntry(*e.run, followers_.size())));
 }
 
 // ---- Places ----

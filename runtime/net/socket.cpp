@@ -59,6 +59,9 @@ Outcome Socket::openHost() {
 Outcome Socket::bind(const Address& address) {
     if (state_ == State::Closed) return ended();
     if (state_ != State::Created || local_.port != 0) return {Fault::IsBound, "the socket is bound already"};
+    if (datagrams_ && (hiddenPort_ != 0 || host_.isOpen()))
+        return {Fault::IsBound,
+                "the socket has had a port since it sent a datagram; use SocketBind before that"};
     constexpr uint32_t kFirstMulticast = 0xE0000000;
     if (address.ip >= kFirstMulticast)
         return {Fault::AddressInvalid,

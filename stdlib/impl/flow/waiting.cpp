@@ -2,6 +2,7 @@
 
 #include "runtime/abi/support_natives.h"
 #include "runtime/host/controller.h"
+#include "stdlib/impl/support/endless_poll.h"
 #include "stdlib/impl/support/fail.h"
 
 #include "stdlib_constants.h"
@@ -15,23 +16,11 @@ namespace {
 
 constexpr double kPollSeconds = 0.1;
 constexpr double kShortestPoll = 0.04; // manual 1.20 for the default; the limit as on a controller
-constexpr Time kHopeless = 8 * (3600 * kSecond);
 
 /// Until robot and additional axes stand in the last point; a task without a robot has nothing to wait for.
 Status waitInPosition(TaskCore* task) {
     Task& owner = taskOf(task);
     return owner.isMotionTask() ? owner.controller().motion(owner).waitIdle(owner) : kOk;
-}
-
-/// A shift of virtual time in which this task alone looked at its condition and nothing else was to happen: it can only
-/// depend on the time now, and no sensible condition waits that long. Without this a run would never end.
-bool isHopeless(const Task& task, Time since) {
-    const Scheduler& scheduler = task.scheduler();
-    const SchedulerOptions& options = scheduler.options();
-    if (task.now() - since < kHopeless || options.realtime || options.maxTime != kNever) return false;
-    if (scheduler.anythingPending()) return false;
-    return std::none_of(scheduler.tasks().begin(), scheduler.tasks().end(),
-                        [&](const Task* other) { return other != &task && other->isExecuting(); });
 }
 
 } // namespace
@@ -67,15 +56,17 @@ Status rt_waitUntilPoll(TaskCore* task, bool* again, bool, const float* MaxTime,
         *state = MaxTime ? std::max<Time>(1, addTime(owner.now(), fromSeconds(*MaxTime))) : -1 - owner.now();
     const Time deadline = *state > 0 ? *state : kNever;
     *again = owner.now() < deadline;
-    if (*state < 0 && isHopeless(owner, -1 - *state))
-        return owner.fatal(static_cast<int>(EventId::NothingPending),
-                           "WaitUntil has looked at its condition for eight hours of virtual time.");
     if (!*again) {
         if (!TimeFlag)
             return lib::fail(task, err::ERR_WAIT_MAXTIME,
                              "the condition did not become TRUE within \\MaxTime");
         *TimeFlag = true;
         return kOk;
+    }
+    if (*state < 0 && lib::mayNeverEnd(owner, -1 - *state)) {
+        bool hopeless = false;
+        const Status status = lib::waitForNextLook(owner, hopeless);
+        return hopeless ? lib::reportHopeless(owner, "WaitUntil") : status;
     }
     const double poll = PollRate ? std::max<double>(*PollRate, kShortestPoll) : kPollSeconds;
     // The condition is looked at once more exactly when the time is over.

@@ -2,6 +2,7 @@
 // setting is one indivisible step.
 
 #include "runtime/host/controller.h"
+#include "stdlib/impl/support/endless_poll.h"
 
 #include <algorithm>
 #include <deque>
@@ -13,7 +14,9 @@ using namespace rt;
 
 namespace {
 
-constexpr Time kPoll = 10 * kMillisecond; // changes of a persistent are not signalled
+constexpr Time kPoll = 10 * kMillisecond;      // changes of a persistent are not signalled
+constexpr Time kLazyPoll = 100 * kMillisecond; // as WaitUntil, after the time that a lock is usually held
+constexpr Time kShort = 10 * kSecond;
 
 bool take(bool* object) {
     if (*object) return false;
@@ -68,10 +71,24 @@ Status rt_WaitTestAndSet(TaskCore* task, bool* Object) {
     Task& owner = taskOf(task);
     auto& waiting = owner.controller().service<Waiting>();
     const Place place(waiting, owner, Object);
-    WaitSpec spec;
-    spec.condition = [&] { return waiting.isFirst(owner, Object) && take(Object); };
-    spec.pollPeriod = kPoll;
-    WaitResult result = WaitResult::Done;
-    return owner.waitFor(spec, result);
+    const Time since = owner.now();
+    const auto isMine = [&] { return waiting.isFirst(owner, Object) && take(Object); };
+    for (;;) {
+        if (lib::mayNeverEnd(owner, since)) {
+            bool hopeless = false;
+            if (const Status status = lib::waitForNextLook(owner, hopeless); status != kOk) return status;
+            if (isMine()) return kOk;
+            if (hopeless) return lib::reportHopeless(owner, "WaitTestAndSet");
+            continue;
+        }
+        const bool isShort = owner.now() - since < kShort;
+        WaitSpec spec;
+        spec.condition = isMine;
+        spec.deadline = addTime(owner.now(), isShort ? kShort : lib::kShift);
+        spec.pollPeriod = isShort ? kPoll : kLazyPoll;
+        WaitResult result{};
+        const Status status = owner.waitFor(spec, result);
+        if (status != kOk || result == WaitResult::Done) return status;
+    }
 }
 }

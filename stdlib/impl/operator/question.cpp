@@ -146,11 +146,12 @@ ActiveSignal::~ActiveSignal() {
 
 Status fillText(TaskCore* task, const MessageText& text, std::string& header, std::string& icon,
                 std::string& image, std::vector<std::string>& lines) {
-    static constexpr const char* kIcons[] = {"", "Information", "Warning", "Error"};
+    static constexpr const char* kIcons[] = {"", "Information", "Warning", "Error", "Question"};
     const float number = text.icon ? *text.icon : k::iconNone;
-    if (number != k::iconNone && number != k::iconInfo && number != k::iconWarning && number != k::iconError)
+    if (number != k::iconNone && number != k::iconInfo && number != k::iconWarning &&
+        number != k::iconError && number != k::iconQuestion)
         return failWith(task, err::ERR_ARGVALERR,
-                        "there is no icon {}; use iconNone, iconInfo, iconWarning or iconError",
+                        "there is no icon {}; use iconNone, iconInfo, iconWarning, iconError or iconQuestion",
                         static_cast<double>(number));
     icon = kIcons[static_cast<std::size_t>(number)];
     if (text.header) header = text.header->view();

@@ -1,4 +1,4 @@
-// Manual 1.17: GetSysData and SetSysData: the tool and the work object that are in force.
+// Manual 1.17: GetSysData and SetSysData: the tool, the work object and the payload that are in force.
 
 #include "runtime/base/text_util.h"
 #include "runtime/value/value_text.h"
@@ -23,7 +23,7 @@ lib::MotionState& stateOf(Task& owner) {
 
 /// The names that SetSysData has given; they hold as long as the data have that value.
 struct ActiveNames {
-    std::string tool, workObject;
+    std::string tool, workObject, payload;
 };
 
 /// The place of the value in force, its size, and its name.
@@ -40,13 +40,26 @@ Active activeOf(Task& owner, const TypeDesc& type) {
     if (sameName(type.baseName, "tooldata")) return {&state.tool, sizeof state.tool, &names.tool};
     if (sameName(type.baseName, "wobjdata"))
         return {&state.workObject, sizeof state.workObject, &names.workObject};
+    if (sameName(type.baseName, "loaddata")) return {&state.gripLoad, sizeof state.gripLoad, &names.payload};
     return {};
+}
+
+/// The predefined data that are in force until a program chooses others.
+const char* standardName(const TypeDesc& type) {
+    if (sameName(type.baseName, "tooldata")) return "tool0";
+    return sameName(type.baseName, "wobjdata") ? "wobj0" : "load0";
+}
+
+const void* standardValue(const lib::MotionState& standard, const TypeDesc& type) {
+    if (sameName(type.baseName, "tooldata")) return &standard.tool;
+    if (sameName(type.baseName, "wobjdata")) return &standard.workObject;
+    return &standard.gripLoad;
 }
 
 Status wrongType(TaskCore* task, const TypeDesc& type) {
     return lib::fail(task, err::ERR_ARGVALERR,
                      std::string("data of type ") + type.name +
-                         " is never in force here; use tooldata or wobjdata");
+                         " is never in force here; use tooldata, wobjdata or loaddata");
 }
 
 /// Not byte by byte: records have gaps.
@@ -66,9 +79,7 @@ std::string nameOf(const Task& owner, const TypeDesc& type, const Active& active
     const GlobalDesc* named = controller.findGlobal(*active.name, {}, owner);
     if (named && hasValue(*named)) return *active.name;
     const lib::MotionState standard;
-    const bool isTool = sameName(type.baseName, "tooldata");
-    const void* none = isTool ? static_cast<const void*>(&standard.tool) : &standard.workObject;
-    if (sameValue(active.value, none, type)) return isTool ? "tool0" : "wobj0";
+    if (sameValue(active.value, standardValue(standard, type), type)) return standardName(type);
     for (const GlobalDesc* data : controller.tables().globals())
         if (data->address != asked && hasValue(*data)) return data->name;
     return {};
@@ -98,6 +109,9 @@ Status rt_SetSysData(TaskCore* task, void* SourceObject, const TypeDesc* SourceO
     if (const Status status = lib::requireMotionTask(task)) return status;
     const Active active = activeOf(taskOf(task), *SourceObjectType);
     if (!active.value) return wrongType(task, *SourceObjectType);
+    if (active.value == &stateOf(taskOf(task)).gripLoad &&
+        static_cast<const data::Loaddata*>(SourceObject)->mass < 0)
+        return lib::fail(task, err::ERR_ARGVALERR, "the mass of a payload must not be negative");
     std::memcpy(active.value, SourceObject, active.size);
     const GlobalDesc* source = lib::dataAt(taskOf(task).controller(), SourceObject);
     *active.name = ObjectName ? std::string(ObjectName->view()) : source ? source->name : "";
