@@ -234,7 +234,7 @@ void WordWriter::instruction(ir::ValueId id) {
     if (needsStatement(inst)) note(inst.stmt);
     made_ = rt::kNoSlot;
     if (ir::valueType(inst) != ir::kVoid) {
-        if (lastUser_[id] != ir::kNone && !free_.empty()) {
+        if ((lastUser_[id] != ir::kNone || !used_[id]) && !free_.empty()) {
             made_ = free_.back();
             free_.pop_back();
         } else {

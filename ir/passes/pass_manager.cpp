@@ -16,8 +16,9 @@ Findings prefixed(Findings findings, std::string_view pass) {
     return findings;
 }
 
-/// Instructions of a routine from which on it is verified before the passes and after the last one only: each time costs as much
-/// as a pass.
+/// Instructions of a routine from which on it is verified before the passes and after the last one only, because each time costs
+/// as much as a pass, and its checks stay where they are: it is interpreted, and values kept for one check later would each
+/// need a place on the stack.
 constexpr size_t kHuge = 60'000;
 
 /// False for an unknown name.
@@ -28,12 +29,12 @@ bool runPass(std::string_view name, const Module& module, Routine& routine, cons
         foldConstants(module, routine, options.nativeCode);
     else if (name == "check-overflow" && options.overflowChecks)
         checkOverflow(module, routine);
-    else if (name == "merge-checks")
+    else if (name == "merge-checks" && routine.insts.size() < kHuge)
         mergeChecks(module, routine);
     else if (name == "place-safepoints")
         placeSafepoints(module, routine, options.profile);
     else
-        return name == "check-overflow";
+        return name == "check-overflow" || name == "merge-checks";
     return true;
 }
 

@@ -13,39 +13,9 @@ bool inFilter(const RoutineDesc& routine, int number) {
     return std::find(routine.errorFilter, end, number) != end;
 }
 
-/// A statement that the handler does not cover is part of a handler: no recovery from there.
-bool coversStatement(const Frame& frame) {
-    const StmtDesc* statement = statementOf(frame);
-    return statement != nullptr && statement->handled != 0;
-}
-
-bool inUndoHandler(const Frame& frame) {
-    return frame.routine->hasUndo && frame.reserved == kFrameInUndo;
-}
-
-/// Not a place where the system calls a routine.
-bool isOfProgram(const Frame& frame) {
-    return frame.routine != nullptr && !isBoundary(frame);
-}
-
-/// The nearest handler from `at` outwards that lists the number, past trap routines too; null: none. The search ends at a
-/// statement of an error or UNDO handler: errors there do not reach routines that are being left.
-Frame* listingHandler(Frame* at, int errorNumber) {
-    for (Frame* frame = at; frame != nullptr && frame->routine != &kEventBoundary; frame = frame->caller) {
-        if (!isOfProgram(*frame)) continue;
-        if (inUndoHandler(*frame)) break;
-        if (!frame->routine->hasErrorHandler) continue;
-        if (!coversStatement(*frame)) break;
-        if (listsError(*frame->routine, errorNumber)) return frame;
-    }
-    return nullptr;
-}
-
 } // namespace
 
-bool listsError(const RoutineDesc& routine, int errorNumber) {
-    if (!routine.hasErrorHandler || (routine.errorFilterCount == 0 && routine.errorVariableCount == 0))
-        return false;
+bool errorListNames(const RoutineDesc& routine, int errorNumber) {
     const ErrorVariable* const end = routine.errorVariables + routine.errorVariableCount;
     return inFilter(routine, errorNumber) || inFilter(routine, kAllErrors) ||
            std::any_of(routine.errorVariables, end, [errorNumber](const ErrorVariable& variable) {
@@ -54,38 +24,13 @@ bool listsError(const RoutineDesc& routine, int errorNumber) {
            });
 }
 
-bool takesError(const RoutineDesc& routine, int errorNumber) {
-    if (!routine.hasErrorHandler) return false;
-    const bool withoutList = routine.errorFilterCount == 0 && routine.errorVariableCount == 0;
-    return withoutList || inFilter(routine, kOtherErrors) || listsError(routine, errorNumber);
+bool errorListTakesOthers(const RoutineDesc& routine) {
+    return inFilter(routine, kOtherErrors);
 }
 
 bool inErrorHandler(const Frame& frame) {
     const StmtDesc* statement = statementOf(frame);
     return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
-}
-
-bool handles(const Frame& frame, int errorNumber) {
-    return isOfProgram(frame) && !inUndoHandler(frame) && frame.routine->hasErrorHandler &&
-           coversStatement(frame) && takesError(*frame.routine, errorNumber);
-}
-
-ErrorRoute routeOfError(Frame* at, int errorNumber) {
-    at = callSeenByUser(at);
-    if (at == nullptr || at->routine == &kEventBoundary) return {};
-    if (isOfProgram(*at)) {
-        if (inUndoHandler(*at)) return {};
-        if (at->routine->hasErrorHandler && !coversStatement(*at)) return {};
-        if (handles(*at, errorNumber)) return {at, false};
-    }
-    Frame* const listing = listingHandler(at->caller, errorNumber);
-    return {listing, listing != nullptr};
-}
-
-ErrorRoute routeFromCall(Frame* at, int errorNumber) {
-    at = callSeenByUser(at);
-    if (Frame* const listing = listingHandler(at, errorNumber)) return {listing, true};
-    return {at != nullptr && handles(*at, errorNumber) ? at : nullptr, false};
 }
 
 UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber) {

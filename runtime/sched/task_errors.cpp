@@ -26,10 +26,17 @@ constexpr int kMostMerged = 256;
 bool isAmongCallers(const Frame* from, const Frame* wanted) {
     const Frame* highest = from;
     for (int i = 0; i < kMostMerged; ++i, from = from->caller) {
-        if (from == nullptr || from == wanted) return from == wanted;
+        if (from == wanted) return true; // a record in use: not null
+        if (from == nullptr) return false;
         highest = std::max(highest, from, std::less<>());
     }
     return std::less<>()(highest, wanted);
+}
+
+/// The error handler of the frame's routine is in progress.
+bool isInHandlerOf(const Frame& frame) {
+    const StmtDesc* statement = statementOf(frame);
+    return statement != nullptr && statement->handled == 0;
 }
 
 /// The same for a record that may have been left.
@@ -108,6 +115,17 @@ void Task::noteRaised(int number) {
 
 /// Called by compiled code for a check or RAISE: started again after the system handler, the instruction fails again.
 Status Task::raiseAt(Frame* at, int number) {
+    // The usual error does what raiseOnce does, without questions whose answers are known: a program may raise millions.
+    const bool isUsual = handled_.empty() && errorDetail_.empty() && !raiseToCaller_ && !undoAborted_ &&
+                         unwinding_ == Unwind::None && guide_ == nullptr && askSteps == 0;
+    if (isUsual && at != nullptr && handles(*at, number) && at->routine->isBuiltin == 0) {
+        frame = at;
+        error_.set(number, at, errorDetail_);
+        scheduler_.errorRaised(*this, number);
+        errorNumber = number;
+        noteHandled(at, number);
+        return number;
+    }
     const std::string detail = errorDetail_;
     Status status = raiseOnce(at, number);
     while (status == kAgain && !canExecuteAgain()) {
@@ -143,37 +161,39 @@ Status Task::raiseToCaller(int number) {
 
 Status Task::propagateFrom(Frame* handler) {
     const int number = errorNumber;
-    const bool detached = handler != nullptr && handler->routine->isDetachedHandler != 0;
-    Status status = kAgain;
-    while (status == kAgain) {
+    Frame* const caller = handler->caller;
+    const bool detached = handler->routine->isDetachedHandler != 0;
+    while (true) {
         frame = handler;
-        Frame* const caller = handler != nullptr ? handler->caller : nullptr;
-        status =
+        const Status status =
             detached ? leaveDetached(number) : dispatchError(routeFromCall(caller, number), number, caller);
-        if (status != kAgain || canExecuteAgain()) break;
+        if (status != kAgain || canExecuteAgain()) return status;
     }
-    return status;
 }
 
-/// `from`: where the search for a handler began.
+/// `from`: where the search for a handler began. Kept short for the error that a handler takes; the rest lies apart.
 Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* from) {
     errorNumber = number;
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
-    const bool backward =
-        stepHook_ != nullptr && stepHook_->isBackward(*this); // no handler then (manual 1.21)
-    if (route.handler != nullptr && !backward && stepHook_ != nullptr && unwinding_ == Unwind::None &&
-        events_.running() == SystemEvent::None) {
-        if (const Status status = stepHook_->handledErrorRaised(*this, number); status < 0) return status;
+    bool backward = false;                       // no handler then (manual 1.21)
+    if (askSteps != 0 && stepHook_ != nullptr) { // whoever wants to be asked sets askSteps
+        backward = stepHook_->isBackward(*this);
+        if (route.handler != nullptr && !backward && unwinding_ == Unwind::None &&
+            events_.running() == SystemEvent::None) {
+            if (const Status status = stepHook_->handledErrorRaised(*this, number); status < 0) return status;
+        }
     }
-    if (route.longJump && !backward) return startJump(route.handler, number);
-    if (route.handler != nullptr && !backward) {
-        noteHandled(route.handler, number);
-        return number;
+    if (route.handler == nullptr || backward) {
+        const auto report = [this, backward, number, from]() __attribute__((noinline, cold)) {
+            handled_.clear(); // reported as unhandled instead
+            return reportUnhandled(number, backward ? std::string() : unaskedText(from, number));
+        };
+        return report();
     }
-    handled_.clear(); // reported as unhandled instead
-    const std::string hint = backward ? std::string() : unaskedText(from, number);
-    return reportUnhandled(number, hint);
+    if (route.longJump) return startJump(route.handler, number);
+    noteHandled(route.handler, number);
+    return number;
 }
 
 Status Task::reportUnhandled(int number, const std::string& hint) {
@@ -212,8 +232,8 @@ Status Task::fatal(int eventNumber, std::string argument) {
                          formatEventText(static_cast<EventId>(eventNumber), {std::move(argument)}), place());
 }
 
-Status Task::systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
-                           const std::string& hint) {
+[[gnu::noinline, gnu::cold]] Status Task::systemHandler(int eventNumber, int number, std::string text,
+                                                        const SourcePlace& where, const std::string& hint) {
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
     EventLog& log = host_.log();
@@ -253,7 +273,7 @@ Status Task::systemHandler(int eventNumber, int number, std::string text, const 
 // ---- Long jumps ----------------------------------------------------------------------------------------------------
 
 /// The stack is unwound with UNDO to the routine of `target`, which asks landAt.
-Status Task::startJump(Frame* target, int number, HandlerDecision decision) {
+[[gnu::noinline, gnu::cold]] Status Task::startJump(Frame* target, int number, HandlerDecision decision) {
     flushHandledWarning();
     dropHandled(target); // the handlers at work pass it on
     if (unwinding_ == Unwind::None) unwinding_ = Unwind::Jump;
@@ -326,7 +346,7 @@ Status Task::continueAtUser(int number, HandlerDecision& decision) {
 
 /// RAISE in a detached handler: at once to the system handler when no handler further out takes the error. Positive: the handler
 /// returns, and its routine raises the error when the stack has been unwound to it.
-Status Task::leaveDetached(int number) {
+[[gnu::noinline, gnu::cold]] Status Task::leaveDetached(int number) {
     if (number != errorNumber) noteRaised(number);
     errorNumber = number;
     if (routeFromCall(detached_.back().user->caller, number).handler == nullptr) {
@@ -347,18 +367,23 @@ void Task::abortUndo(std::string why) {
 // ---- Handled errors ------------------------------------------------------------------------------------------------
 
 void Task::noteHandled(Frame* handler, int number) {
-    flushHandledWarning();
-    dropHandled(handler);
-    handled_.emplace_back(handler, handler->routine, number, error_);
+    if (!handled_.empty()) {
+        flushHandledWarning();
+        dropHandled(handler);
+    }
     RetryCount* entry = retryCountOf(handler);
-    if (entry == nullptr) entry = &retries_.emplace_back();
-    if (entry->frame != handler || entry->statement != handler->statement || entry->id != handler->reserved) {
+    if (entry == nullptr) {
+        entry = &retries_.emplace_back();
         entry->frame = handler;
+        entry->statement = handler->statement;
+    } else if (entry->statement != handler->statement || entry->id != handler->reserved) {
         entry->statement = handler->statement;
         entry->id = 0;
         entry->counts.clear();
     }
     entry->number = number;
+    // Last: the error has just been written in parts and is read as one, which a processor does only after a while.
+    handled_.emplace_back(handler, handler->routine, number, error_);
 }
 
 /// The count of the handler at work that is nearest to `from`. The counts lie in the order of calls, the innermost last;
@@ -414,9 +439,7 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    if (!inProgress || handled.frame->routine != handled.routine) return false;
-    const StmtDesc* statement = statementOf(*handled.frame);
-    return statement != nullptr && !statement->handled;
+    return inProgress && handled.frame->routine == handled.routine && isInHandlerOf(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
@@ -432,11 +455,15 @@ void Task::dropHandled(const Frame* outermost) {
 }
 
 void Task::skipWarn() {
+    const auto isOwn = [this](const HandledError& handled) {
+        return handled.frame == frame && handled.routine == frame->routine && isInHandlerOf(*frame);
+    };
+    if (!handled_.empty() && isOwn(handled_.back())) return handled_.pop_back(); // as a rule
     flushHandledWarning();
     if (!handled_.empty()) handled_.pop_back();
 }
 
-void Task::writeHandledWarning() {
+[[gnu::noinline, gnu::cold]] void Task::writeHandledWarning() {
     HandledError handled = std::move(handled_.back());
     handled_.pop_back();
     // A loop that handles one error again and again only counts its event.

@@ -4,6 +4,7 @@
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
+#include "stdlib/impl/support/inlined.h"
 
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
@@ -13,9 +14,11 @@ using namespace rt::lib;
 
 extern "C" {
 
-Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y, bool Z, const data::Orient* Rotation) {
+// One of three angles: which one is known when it is inlined, as a rule.
+RAPIDC_INLINED Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y, bool Z,
+                                  const data::Orient* Rotation) {
     if (X + Y + Z != 1) return fail(task, err::ERR_ARGVALERR, "EulerZYX needs one of \\X, \\Y and \\Z");
-    const robot::Vec3 angles = robot::eulerZyx(robot::normalized(toQuat(*Rotation)));
+    const robot::Vec3 angles = robot::eulerZyx(toUnitQuat(*Rotation));
     return give(task, result, static_cast<float>(X ? angles.x : Y ? angles.y : angles.z));
 }
 
@@ -28,22 +31,24 @@ Status rt_OrientZYX(TaskCore* task, data::Orient* result, float ZAngle, float YA
     return give(task, result, toOrient(aboutZ * aboutY * aboutX));
 }
 
-Status rt_NOrient(TaskCore* task, data::Orient* result, const data::Orient* Rotation) {
+RAPIDC_INLINED Status rt_NOrient(TaskCore* task, data::Orient* result, const data::Orient* Rotation) {
     const robot::Quat q = toQuat(*Rotation);
-    if (!(robot::norm(q) > 1e-6))
+    if (!(dot(q, q) > 1e-12))
         return fail(task, err::ERR_ILLQUAT, "an orientation of length 0 has no direction");
-    return give(task, result, toOrient(robot::normalized(q)));
+    return give(task, result, toOrient(toUnitQuat(*Rotation)));
 }
 
-Status rt_PoseInv(TaskCore* task, data::Pose* result, const data::Pose* Pose) {
+RAPIDC_INLINED Status rt_PoseInv(TaskCore* task, data::Pose* result, const data::Pose* Pose) {
     return give(task, result, toPose(robot::inverse(toFrame(*Pose))));
 }
 
-Status rt_PoseMult(TaskCore* task, data::Pose* result, const data::Pose* Pose1, const data::Pose* Pose2) {
+RAPIDC_INLINED Status rt_PoseMult(TaskCore* task, data::Pose* result, const data::Pose* Pose1,
+                                  const data::Pose* Pose2) {
     return give(task, result, toPose(toFrame(*Pose1) * toFrame(*Pose2)));
 }
 
-Status rt_PoseVect(TaskCore* task, data::Pos* result, const data::Pose* Pose, const data::Pos* Pos) {
+RAPIDC_INLINED Status rt_PoseVect(TaskCore* task, data::Pos* result, const data::Pose* Pose,
+                                  const data::Pos* Pos) {
     return give(task, result, toPos(robot::apply(toFrame(*Pose), toVec(*Pos))));
 }
 

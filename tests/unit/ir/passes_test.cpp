@@ -474,6 +474,15 @@ TEST_CASE("checks with nothing but stores between them become one look", "[ir]")
     CHECK(again == std::vector<Op>{Op::Store, Op::CheckFinite, Op::Store, Op::CheckFinite, Op::Br});
 }
 
+TEST_CASE("the checks of a huge routine stay where they are: no value waits for a later look", "[ir]") {
+    std::string lines = "    %0 = param 0\n";
+    for (int i = 1; i <= 30'000; ++i)
+        lines +=
+            "    %" + std::to_string(i) + " = fmul %0, %0\n    checkfinite %" + std::to_string(i) + ", 17\n";
+    const ir::Module module = run(body("f32", lines + "    ret %0\n"), {"merge-checks"});
+    CHECK(module.routines[0].blocks.size() == 1);
+}
+
 TEST_CASE("a module without overflow keeps infinities", "[ir]") {
     ir::Module module =
         run(body("f32", "    %0 = param 0\n    %1 = fmul %0, %0\n    ret %1\n"), {"check-overflow"});
