@@ -201,7 +201,7 @@ void Controller::reportEnds() {
         if (!place.module.empty()) text += fmt::format(" in {}:{}", place.module, place.line);
         isCycleLeft = isCycleLeft || task->endReason() == "ExitCycle";
     }
-    // A server that begins again so is expected to go on; a run has one cycle unless it is asked for more.
+    // A server that begins again so is expected to continue; a run has one cycle unless it is asked for more.
     if (isCycleLeft) text += ". It was the last cycle of this run; with --cycles=0 main begins again";
     if (!text.empty()) log_.write(EventId::EndedEarly, nullptr, {text + "."});
 }

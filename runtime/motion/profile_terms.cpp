@@ -55,7 +55,7 @@ RAPIDC_INLINE double mostOf(const Quad& quad) {
     return std::max(std::max(quad[0], quad[1]), std::max(quad[2], quad[3]));
 }
 
-/// What a block adds to the rows of its cells' three coefficients, and what its jerks have in common.
+/// Contribution of a block to the rows of the three coefficients of its cells, and the common part of its jerks.
 struct Sums {
     std::array<Quad, 3> diagonal{}, right{}, cross{};
     std::array<Quad, 2> next{};

@@ -36,7 +36,7 @@ class ProfileTerms {
 
     /// Slacks and forces of all limits at these coefficients, near a common product.
     void begin(const double* coefficients, double duration);
-    /// What is still to be gained, s, shared out among all limits.
+    /// The time that can still be gained, s, divided among all limits.
     double gap() const { return gap_; }
     /// Number of limits.
     std::size_t pairs() const { return pairs_; }

@@ -384,7 +384,7 @@ class Task : public TaskCore {
   private:
     friend class Scheduler;
 
-    /// The stepping profile looks at the budget before statements only. What is charged while a look is due belongs after it.
+    /// The stepping profile looks at the budget before statements only: charges made while a look is due count after it.
     struct LaterCharges {
         int64_t forcedTo = kNotForced; ///< the budget as forceSafepoint or forceLook left it
         std::vector<int64_t> costs;    ///< in order

@@ -79,7 +79,7 @@ TEST_CASE("placeholders are notes: a program with them can be loaded", "[sema]")
     CHECK(run->messages().empty());
 }
 
-TEST_CASE("every placeholder is noted once, whatever it stands for", "[sema]") {
+TEST_CASE("every placeholder is noted once", "[sema]") {
     const std::string text =
         "MODULE <ID>\n  VAR num <ID>;\n  VAR num list{<EXP>};\n  <DDN>\n  RECORD <ID>\n    num x;\n  "
         "ENDRECORD\n"
