@@ -14,7 +14,7 @@ SOURCE_SUFFIXES = (".modx", ".sysx", ".mod", ".sys")
 COMPILE_OPTIONS = ("--task=", "--config=", "--robot-config=")
 DIRECTIVE = re.compile(r"^\s*!@\s*([a-z]+):\s*(.*?)\s*$")
 # A command of a .test file that takes longer hangs; generous, because other work may slow the machine down.
-HANGS_AFTER_S = 60
+HANGS_AFTER_S = 120
 MODES = ("jit", "parts", "aot", "step", "words", "stepwords")
 INTERPRETED_MODES = {"words", "stepwords"}
 KNOWN_DIRECTIVES = {"test", "exit", "args", "modes", "manual", "timeout", "inputs", "rule"}
