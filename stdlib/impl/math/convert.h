@@ -20,29 +20,15 @@ inline data::Orient toOrient(const robot::Quat& q) {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
-/// Apart: a root is computed in advance where it can be.
-[[gnu::noinline, gnu::cold]] inline robot::Quat scaledToUnit(const robot::Quat& q) {
-    return robot::normalized(q);
-}
-/// The quaternion scaled to unit length, which binary32 components never have exactly; of length zero: the identity. One that
-/// is nearly of unit length takes three terms of the series of 1/sqrt(1 + excess), whose rest is below half a unit of the last
-/// place of binary64: a root and a division would be the longest part of most calculations with frames.
-inline robot::Quat toUnitQuat(const data::Orient& o) {
-    constexpr double kSmallExcess = 5e-6;
-    const robot::Quat q = toQuat(o);
-    const double excess = dot(q, q) - 1;
-    if (!(excess < kSmallExcess && excess > -kSmallExcess)) return scaledToUnit(q);
-    const double scale = 1 + excess * (0.375 * excess - 0.5);
-    return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
-}
+/// The quaternion is scaled to unit length, which binary32 components never have exactly.
 inline robot::Pose toFrame(const data::Pose& p) {
-    return {toVec(p.trans), toUnitQuat(p.rot)};
+    return {toVec(p.trans), robot::normalized(toQuat(p.rot))};
 }
 inline data::Pose toPose(const robot::Pose& p) {
     return {toPos(p.pos), toOrient(p.rot)};
 }
 inline robot::Pose toFrame(const data::Robtarget& t) {
-    return {toVec(t.trans), toUnitQuat(t.rot)};
+    return {toVec(t.trans), robot::normalized(toQuat(t.rot))};
 }
 
 } // namespace rt::lib

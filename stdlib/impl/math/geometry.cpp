@@ -18,7 +18,7 @@ extern "C" {
 RAPIDC_INLINED Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y, bool Z,
                                   const data::Orient* Rotation) {
     if (X + Y + Z != 1) return fail(task, err::ERR_ARGVALERR, "EulerZYX needs one of \\X, \\Y and \\Z");
-    const robot::Vec3 angles = robot::eulerZyx(toUnitQuat(*Rotation));
+    const robot::Vec3 angles = robot::eulerZyx(robot::normalized(toQuat(*Rotation)));
     return give(task, result, static_cast<float>(X ? angles.x : Y ? angles.y : angles.z));
 }
 
@@ -35,7 +35,7 @@ RAPIDC_INLINED Status rt_NOrient(TaskCore* task, data::Orient* result, const dat
     const robot::Quat q = toQuat(*Rotation);
     if (!(dot(q, q) > 1e-12))
         return fail(task, err::ERR_ILLQUAT, "an orientation of length 0 has no direction");
-    return give(task, result, toOrient(toUnitQuat(*Rotation)));
+    return give(task, result, toOrient(robot::normalized(q)));
 }
 
 RAPIDC_INLINED Status rt_PoseInv(TaskCore* task, data::Pose* result, const data::Pose* Pose) {

@@ -74,6 +74,10 @@ rt::Status stackOverflow(rt::TaskCore*, rt::Frame* frame) {
     return rt::kUnwind;
 }
 
+void chargeLater(rt::TaskCore* task, int64_t cost) {
+    task->budget -= cost;
+}
+
 rt::Status noteNumber(rt::TaskCore* task, float number) {
     std::string chain;
     for (const rt::Frame* f = task->frame; f; f = f->caller)
@@ -135,6 +139,7 @@ std::vector<codegen::NativeSymbol> symbols() {
             symbol("rt_takesError", takesError),
             symbol("rt_retry", retry),
             symbol("rt_stackOverflow", stackOverflow),
+            symbol("rt_chargeLater", chargeLater),
             symbol("rt_interpret", rt_interpret),
             symbol("rt_note", noteNumber),
             symbol("rt_fallible", fallible),
