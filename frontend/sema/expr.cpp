@@ -58,7 +58,6 @@ Typed Expressions::expr(const Expr& e, const DataType* want, ConstValue* slot) {
     case NodeKind::Paren: return paren(as<ParenExpr>(e), want, slot);
     case NodeKind::Unary: return unary(as<UnaryExpr>(e), want, slot);
     case NodeKind::Binary: return binaryChain(as<BinaryExpr>(e), want);
-    case NodeKind::PlaceholderExpr: return errorExpr(e);
     default: return errorExpr(e);
     }
 }

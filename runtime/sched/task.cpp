@@ -309,8 +309,8 @@ void Task::forceLook() {
 }
 
 void Task::chargeLater(int64_t cost) {
-    if (budget ==
-        later_.forcedTo) // nothing has been charged since: the other profiles look after this charge
+    // When nothing has been charged since the budget was forced, the other profiles look after this charge.
+    if (budget == later_.forcedTo)
         budget -= cost;
     else
         later_.costs.push_back(cost);
@@ -319,8 +319,8 @@ void Task::chargeLater(int64_t cost) {
 Status Task::safepoint(Frame* at) {
     const auto look = [&] {
         Status status = kAgain;
-        while (status ==
-               kAgain) // an interrupt without trap routine stopped the task, and it was started again
+        // Again: an interrupt without trap routine stopped the task, and it was started again.
+        while (status == kAgain)
             status = safepointOnce(at);
         return status;
     };

@@ -151,7 +151,7 @@ Status fillText(TaskCore* task, const MessageText& text, std::string& header, st
     if (number != k::iconNone && number != k::iconInfo && number != k::iconWarning &&
         number != k::iconError && number != k::iconQuestion)
         return failWith(task, err::ERR_ARGVALERR,
-                        "there is no icon {}; use iconNone, iconInfo, iconWarning, iconError or iconQuestion",
+                        "{} is not an icon; use iconNone, iconInfo, iconWarning, iconError or iconQuestion",
                         static_cast<double>(number));
     icon = kIcons[static_cast<std::size_t>(number)];
     if (text.header) header = text.header->view();

@@ -26,34 +26,31 @@ struct ActiveNames {
     std::string tool, workObject, payload;
 };
 
-/// The place of the value in force, its size, and its name.
+/// The place of the value in force, its size, and its name; the predefined data that are in force until a program chooses
+/// others.
 struct Active {
     void* value = nullptr;
     std::size_t size = 0;
     std::string* name = nullptr;
+    const void* standardValue = nullptr;
+    const char* standardName = nullptr;
 };
 
 /// Without a value for a type that is never in force.
 Active activeOf(Task& owner, const TypeDesc& type) {
+    static const lib::MotionState standard;
     lib::MotionState& state = stateOf(owner);
     auto& names = owner.controller().service<ActiveNames>();
-    if (sameName(type.baseName, "tooldata")) return {&state.tool, sizeof state.tool, &names.tool};
+    const auto active = [](auto& value, std::string& name, const auto& standardValue,
+                           const char* standardName) {
+        return Active{&value, sizeof value, &name, &standardValue, standardName};
+    };
+    if (sameName(type.baseName, "tooldata")) return active(state.tool, names.tool, standard.tool, "tool0");
     if (sameName(type.baseName, "wobjdata"))
-        return {&state.workObject, sizeof state.workObject, &names.workObject};
-    if (sameName(type.baseName, "loaddata")) return {&state.gripLoad, sizeof state.gripLoad, &names.payload};
+        return active(state.workObject, names.workObject, standard.workObject, "wobj0");
+    if (sameName(type.baseName, "loaddata"))
+        return active(state.gripLoad, names.payload, standard.gripLoad, "load0");
     return {};
-}
-
-/// The predefined data that are in force until a program chooses others.
-const char* standardName(const TypeDesc& type) {
-    if (sameName(type.baseName, "tooldata")) return "tool0";
-    return sameName(type.baseName, "wobjdata") ? "wobj0" : "load0";
-}
-
-const void* standardValue(const lib::MotionState& standard, const TypeDesc& type) {
-    if (sameName(type.baseName, "tooldata")) return &standard.tool;
-    if (sameName(type.baseName, "wobjdata")) return &standard.workObject;
-    return &standard.gripLoad;
 }
 
 Status wrongType(TaskCore* task, const TypeDesc& type) {
@@ -78,8 +75,7 @@ std::string nameOf(const Task& owner, const TypeDesc& type, const Active& active
     };
     const GlobalDesc* named = controller.findGlobal(*active.name, {}, owner);
     if (named && hasValue(*named)) return *active.name;
-    const lib::MotionState standard;
-    if (sameValue(active.value, standardValue(standard, type), type)) return standardName(type);
+    if (sameValue(active.value, active.standardValue, type)) return active.standardName;
     for (const GlobalDesc* data : controller.tables().globals())
         if (data->address != asked && hasValue(*data)) return data->name;
     return {};
