@@ -6,7 +6,7 @@
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 #include "tools/rws/state_watch.h"
-#include "tools/service/cfg_types.h"
+#include "runtime/host/cfg_types.h"
 
 #include <fmt/format.h>
 
@@ -93,12 +93,12 @@ Reply Configuration::attributes(const Request& request) const {
     const std::string type = request.parameter("type");
     Document document;
     document.place = Document::Place::Resources;
-    if (const service::CfgType* known = service::cfgType(domain, type)) {
-        for (const service::CfgAttributeType& attribute : known->attributes) {
+    if (const rt::CfgType* known = rt::cfgType(domain, type)) {
+        for (const rt::CfgAttributeType& attribute : known->attributes) {
             Entry& entry = document.add("cfg-dt-attribute", attribute.name);
             entry.value("name", attribute.name);
-            entry.value("type", attribute.kind == service::CfgKind::Text     ? "string"
-                                : attribute.kind == service::CfgKind::Number ? "float"
+            entry.value("type", attribute.kind == rt::CfgValueKind::Text     ? "string"
+                                : attribute.kind == rt::CfgValueKind::Number ? "float"
                                                                              : "bool");
             entry.value("default", attribute.standard);
         }

@@ -4,7 +4,7 @@
 #include "config/cfg_writer.h"
 #include "config/read_file.h"
 #include "config/text_util.h"
-#include "tools/service/cfg_types.h"
+#include "runtime/host/cfg_types.h"
 #include "tools/service/system_facts.h"
 
 #include <fmt/format.h>
@@ -23,6 +23,12 @@ using rapid::config::CfgInstance;
 using rapid::config::CfgProblem;
 using rapid::config::CfgSection;
 using rapid::config::sameName;
+using rt::CfgAttributeType;
+using rt::cfgType;
+using rt::CfgType;
+using rt::cfgTypesOf;
+using rt::CfgValueKind;
+using rt::impliedInstances;
 
 constexpr std::size_t kMostInstances = 20'000; // of a type; a client cannot fill the memory
 
@@ -36,7 +42,7 @@ bool isFlagText(std::string_view text) {
 std::string valueText(const CfgAttribute& attribute, const CfgAttributeType* type) {
     if (attribute.values.empty()) return "true";
     std::string text = fmt::format("{}", fmt::join(attribute.values, ","));
-    if (type != nullptr && type->kind == CfgKind::Flag && isFlagText(text))
+    if (type != nullptr && type->kind == CfgValueKind::Flag && isFlagText(text))
         return isTrue(text) ? "true" : "false";
     return text;
 }
@@ -213,7 +219,7 @@ void ConfigurationStore::addOptions(std::vector<CfgInstance>& instances) const {
 
 std::vector<ConfigurationStore::Instance> ConfigurationStore::instances(const std::string& domain,
                                                                         std::string_view type) const {
-    std::vector<CfgInstance> implied = impliedInstances(controller_.core().units(), domain, type);
+    std::vector<CfgInstance> implied = impliedInstances(controller_.core(), domain, type);
     if (domain == "SYS" && sameName(type, "PRESENT_OPTIONS")) addOptions(implied);
     std::vector<Instance> all;
     std::size_t number = 0;
@@ -295,9 +301,9 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
     double number = 0;
     const bool isNumber = rapid::config::parseNumber(value, number);
     const bool wasFlag = present != nullptr && present->values.empty();
-    if (kind != nullptr && kind->kind == CfgKind::Number && !isNumber)
+    if (kind != nullptr && kind->kind == CfgValueKind::Number && !isNumber)
         return fmt::format("{} is a number, '{}' is none", attribute, value);
-    if (kind != nullptr && kind->kind == CfgKind::Flag && !isFlagText(value) && value != "0" && value != "1")
+    if (kind != nullptr && kind->kind == CfgValueKind::Flag && !isFlagText(value) && value != "0" && value != "1")
         return fmt::format("{} is true or false, not '{}'", attribute, value);
     CfgAttribute written{present != nullptr ? present->name
                          : kind != nullptr  ? kind->name
@@ -305,7 +311,7 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
                          {},
                          false,
                          0};
-    const bool isFlag = kind != nullptr ? kind->kind == CfgKind::Flag : wasFlag && isFlagText(value);
+    const bool isFlag = kind != nullptr ? kind->kind == CfgValueKind::Flag : wasFlag && isFlagText(value);
     if (isFlag) {
         const bool on = isTrue(value) || value == "1";
         if (!on && kind != nullptr && kind->standard == "true")
@@ -318,7 +324,7 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
     } else {
         written.values = {value};
         const bool wasQuoted = present != nullptr && present->quoted;
-        written.quoted = kind != nullptr ? kind->kind == CfgKind::Text : wasQuoted || !isNumber;
+        written.quoted = kind != nullptr ? kind->kind == CfgValueKind::Text : wasQuoted || !isNumber;
     }
     for (CfgAttribute& other : instance.attributes) {
         if (!sameName(other.name, attribute)) continue;

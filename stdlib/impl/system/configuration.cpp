@@ -49,6 +49,21 @@ void ensureText(CfgInstance& instance, const std::string& name, const std::strin
     if (instance.find(name) == nullptr) addText(instance, name, value);
 }
 
+/// Those of the files that the path names, in order.
+void collect(std::vector<CfgFile>& files, const Configuration::Path& path, std::vector<CfgInstance*>& found) {
+    for (CfgFile& file : files) {
+        if (!sameName(file.domain, path.domain)) continue;
+        for (CfgSection& section : file.sections) {
+            if (!sameName(section.type, path.type) && !sameName(section.baseType, path.type)) continue;
+            for (CfgInstance& instance : section.instances) {
+                const CfgAttribute* attribute = instance.find(path.attribute);
+                if (attribute != nullptr && sameName(attribute->text(), path.value))
+                    found.push_back(&instance);
+            }
+        }
+    }
+}
+
 void ensureNumber(CfgInstance& instance, const std::string& name, double value) {
     if (instance.find(name) == nullptr) addNumber(instance, name, value);
 }
@@ -94,6 +109,17 @@ void Configuration::load(Controller& controller) {
     loaded_ = true;
     files_ = controller.configuration();
     addRobots(controller);
+    addImplied(controller);
+}
+
+void Configuration::addImplied(const Controller& controller) {
+    for (const char* domain : {"EIO", "SYS", "MOC"}) {
+        CfgFile& file = implied_.emplace_back(CfgFile{"controller", domain, "CFG_1.0:6:0::", {}});
+        for (const std::string& type : cfgTypesOf(domain)) {
+            std::vector<CfgInstance> instances = impliedInstances(controller, domain, type);
+            if (!instances.empty()) file.sections.push_back({type, {}, std::move(instances), 0});
+        }
+    }
 }
 
 /// The instance of topic Motion with that type and name: that of the files, else a new one.
@@ -137,7 +163,7 @@ void Configuration::addRobots(Controller& controller) {
             CfgInstance& owner = isSingle ? motionInstance("SINGLE", fmt::format("{}_{}", unit, kRobotAxes))
                                           : motionInstance("ROBOT", unit);
             const std::string attribute = isSingle ? "use_joint" : fmt::format("use_joint_{}", axis);
-            if (!isSingle) ensureText(owner, "use_robot_type", model.name);
+            if (!isSingle) ensureText(owner, "use_robot_type", robotTypeName(model.name, static_cast<std::size_t>(number - 1)));
             ensureText(owner, attribute, fmt::format("rob{}_{}", number, axis + 1));
             addAxis(model, axis, owner.text(attribute));
         }
@@ -164,19 +190,41 @@ bool Configuration::Path::read(std::string_view text) {
 }
 
 std::vector<CfgInstance*> Configuration::find(const Path& path) {
-    std::vector<CfgInstance*> found;
-    for (CfgFile& file : files_) {
-        if (!sameName(file.domain, path.domain)) continue;
-        for (CfgSection& section : file.sections) {
-            if (!sameName(section.type, path.type) && !sameName(section.baseType, path.type)) continue;
-            for (CfgInstance& instance : section.instances) {
-                const CfgAttribute* attribute = instance.find(path.attribute);
-                if (attribute != nullptr && sameName(attribute->text(), path.value))
-                    found.push_back(&instance);
-            }
-        }
+    std::vector<CfgInstance*> found, implied;
+    collect(files_, path, found);
+    collect(implied_, path, implied);
+    for (CfgInstance* instance : implied) {
+        std::vector<CfgInstance*> same;
+        collect(files_, {path.domain, path.type, "Name", instance->text("Name")}, same);
+        if (same.empty()) found.push_back(instance);
     }
     return found;
+}
+
+const CfgAttribute* Configuration::attribute(const Path& path, const CfgInstance& instance,
+                                             std::string_view name) {
+    if (const CfgAttribute* found = instance.find(name)) return found;
+    const std::string own = instance.text("Name");
+    if (own.empty()) return nullptr;
+    std::vector<CfgInstance*> implied;
+    collect(implied_, {path.domain, path.type, "Name", own}, implied);
+    return implied.empty() ? nullptr : implied.front()->find(name);
+}
+
+CfgInstance& Configuration::kept(CfgInstance& instance) {
+    changed_ = true;
+    for (CfgFile& file : implied_) {
+        for (CfgSection& section : file.sections) {
+            std::vector<CfgInstance>& all = section.instances;
+            const auto own =
+                std::find_if(all.begin(), all.end(), [&](const CfgInstance& each) { return &each == &instance; });
+            if (own == all.end()) continue;
+            CfgFile& kept = files_.emplace_back(CfgFile{file.name, file.domain, file.version, {}});
+            kept.sections.push_back({section.type, {}, {*own}, 0});
+            return kept.sections.back().instances.back();
+        }
+    }
+    return instance;
 }
 
 const CfgAttribute* Configuration::anyOf(const Path& path, std::string_view attribute) const {

@@ -1,5 +1,6 @@
 // Manual 1.14, 1.17: what a program can ask about the system it runs on. Everything is the same on each run.
 
+#include "runtime/host/cfg_types.h"
 #include "runtime/host/controller.h"
 #include "runtime/net/address.h"
 #include "stdlib/impl/motion/units.h"
@@ -15,7 +16,6 @@ using namespace rt;
 
 namespace {
 
-constexpr const char* kSerialNumber = "00-00000";
 constexpr const char* kVersion = "7.20.0"; // of the RobotWare whose language this is
 
 // The part of RobotWare's options that this controller simulates.

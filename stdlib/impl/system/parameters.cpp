@@ -95,17 +95,30 @@ Status readText(TaskCore* task, const CfgAttribute& attribute, String& data) {
     return kOk;
 }
 
+/// Attributes with their standard value are left out of configuration files: false when the standard value is not known.
+bool standardValue(const Found& found, std::string_view name, CfgAttribute& standard) {
+    const CfgType* type = cfgType(found.path.domain, found.path.type);
+    const CfgAttributeType* known = type == nullptr ? nullptr : type->find(name);
+    if (known != nullptr) {
+        standard = {known->name, {known->standard}, known->kind == CfgValueKind::Text, 0};
+        return true;
+    }
+    // A bool that another instance has is FALSE in this one.
+    const CfgAttribute* other = found.configuration->anyOf(found.path, name);
+    if (other == nullptr || lib::kindOf(*other) != CfgKind::Bool) return false;
+    standard = {other->name, {"FALSE"}, false, 0};
+    return true;
+}
+
 Status readAttribute(TaskCore* task, const Found& found, const String& name, void* data,
                      const TypeDesc& type) {
     const CfgKind wanted = kindFor(type);
-    const CfgAttribute* attribute = found.instance->find(name.view());
+    CfgAttribute standard;
+    const CfgAttribute* attribute =
+        found.configuration->attribute(found.path, *found.instance, name.view());
     if (attribute == nullptr) {
-        // A bool that is FALSE is left out of configuration files.
-        const CfgAttribute* other = found.configuration->anyOf(found.path, name.view());
-        if (other == nullptr || lib::kindOf(*other) != CfgKind::Bool) return noAttribute(task, found, name);
-        if (wanted != CfgKind::Bool) return wrongKind(task, name, CfgKind::Bool, wanted);
-        *static_cast<bool*>(data) = false;
-        return kOk;
+        if (!standardValue(found, name.view(), standard)) return noAttribute(task, found, name);
+        attribute = &standard;
     }
     const CfgKind kind = lib::kindOf(*attribute);
     if (kind != wanted) return wrongKind(task, name, kind, wanted);
@@ -173,18 +186,21 @@ Status rt_WriteCfgData(TaskCore* task, const String* InstancePath, const String*
                          "instance '" + found.path.value +
                              "' is internal (Access): programs cannot change it");
     const CfgKind wanted = kindFor(*CfgDataType);
-    const CfgAttribute* known = found.instance->find(Attribute->view());
+    CfgAttribute standard;
+    const CfgAttribute* known =
+        found.configuration->attribute(found.path, *found.instance, Attribute->view());
     if (known == nullptr) known = found.configuration->anyOf(found.path, Attribute->view());
+    if (known == nullptr && standardValue(found, Attribute->view(), standard)) known = &standard;
     if (known == nullptr) return noAttribute(task, found, *Attribute);
     if (lib::kindOf(*known) != wanted) return wrongKind(task, *Attribute, lib::kindOf(*known), wanted);
     std::string text;
     if (const Status status = valueText(task, CfgData, *CfgDataType, text)) return status;
     CfgAttribute changed{known->name, {text}, wanted == CfgKind::Text, 0};
-    if (auto* own = const_cast<CfgAttribute*>(found.instance->find(Attribute->view())))
+    CfgInstance& instance = found.configuration->kept(*found.instance);
+    if (auto* own = const_cast<CfgAttribute*>(instance.find(Attribute->view())))
         *own = std::move(changed);
     else
-        found.instance->attributes.push_back(std::move(changed));
-    found.configuration->noteChange();
+        instance.attributes.push_back(std::move(changed));
     if (ListNo) *ListNo = found.next;
     return kOk;
 }

@@ -1,18 +1,22 @@
-#include "tools/service/cfg_types.h"
+#include "runtime/host/cfg_types.h"
 
-#include "config/letter_case.h"
+#include "runtime/base/text_util.h"
+#include "runtime/host/controller.h"
 
 #include <fmt/format.h>
 
 #include <array>
 
-namespace rapidc::service {
+namespace rt {
+
+std::string robotTypeName(const std::string& model, std::size_t group) {
+    std::string type = fmt::format("ROB{}_", group + 1);
+    for (const char c : model.substr(std::min(model.find(' ') + 1, model.size())))
+        type += c == '-' || c == '/' || c == ' ' ? '_' : c;
+    return type;
+}
 
 namespace {
-
-using rapid::config::CfgAttribute;
-using rapid::config::CfgInstance;
-using rapid::config::sameName;
 
 constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 constexpr double kMillimetres = 1000;
@@ -22,7 +26,7 @@ struct Row {
 };
 constexpr Row kRows[] = {
 #define CFG_TYPE(domain, type, attributes) {domain, type, attributes},
-#include "tools/service/cfg_types.def"
+#include "runtime/host/cfg_types.def"
 #undef CFG_TYPE
 };
 
@@ -33,7 +37,7 @@ CfgType read(const Row& row) {
         const std::string_view one = rest.substr(0, rest.find(','));
         rest.remove_prefix(std::min(rest.size(), one.size() + 1));
         const std::size_t colon = one.find(':');
-        type.attributes.push_back({std::string(one.substr(0, colon)), static_cast<CfgKind>(one[colon + 1]),
+        type.attributes.push_back({std::string(one.substr(0, colon)), static_cast<CfgValueKind>(one[colon + 1]),
                                    std::string(one.substr(colon + 3))});
     }
     return type;
@@ -71,11 +75,11 @@ struct Axis {
     double lower = 0, upper = 0; ///< rad or m
 };
 
-std::vector<Axis> axesOf(const rt::MechanicalUnits& units, const rt::MechanicalUnit& unit) {
+std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& unit) {
     std::vector<Axis> axes;
     if (!unit.isRobot) {
         int number = 0;
-        for (const rt::MechanicalUnit::Axis& own : unit.own) {
+        for (const MechanicalUnit::Axis& own : unit.own) {
             const double factor = own.limits.rotating ? kDegreesPerRadian : kMillimetres;
             axes.push_back({own.single.empty() ? fmt::format("{}_{}", unit.name, number + 1) : own.single,
                             7 + static_cast<int>(own.index), ++number, own.limits.rotating,
@@ -104,14 +108,6 @@ void putFrame(CfgInstance& instance, const robot::Pose& frame) {
     putNumber(instance, "base_frame_orient_u3", frame.rot.z);
 }
 
-/// "IRB 120-3/0.58" as use_robot_type has it: "ROB1_120_3_0.58".
-std::string robotType(const std::string& model, std::size_t group) {
-    std::string type = fmt::format("ROB{}_", group + 1);
-    for (const char c : model.substr(std::min(model.find(' ') + 1, model.size())))
-        type += c == '-' || c == '/' || c == ' ' ? '_' : c;
-    return type;
-}
-
 void addAxis(std::vector<CfgInstance>& instances, std::string_view type, const Axis& axis) {
     CfgInstance& instance = add(instances);
     put(instance, "name", axis.name);
@@ -129,12 +125,12 @@ void addAxis(std::vector<CfgInstance>& instances, std::string_view type, const A
     }
 }
 
-void addRobot(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units,
-              const rt::MechanicalUnit& unit) {
+void addRobot(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
+              const MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
-    const rt::MotionGroup& group = units.groups()[unit.group];
+    const MotionGroup& group = units.groups()[unit.group];
     put(instance, "name", unit.name);
-    put(instance, "use_robot_type", robotType(group.model.name, unit.group));
+    put(instance, "use_robot_type", robotTypeName(group.model.name, unit.group));
     std::size_t joint = 0;
     for (const Axis& axis : axesOf(units, unit))
         if (joint < 6) put(instance, fmt::format("use_joint_{}", joint++), axis.name);
@@ -142,8 +138,8 @@ void addRobot(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& un
     put(instance, "base_frame_coordinated", unit.carrier);
 }
 
-void addUnit(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units,
-             const rt::MechanicalUnit& unit) {
+void addUnit(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
+             const MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
     put(instance, "name", unit.name);
     if (unit.isRobot) put(instance, "use_robot", unit.name);
@@ -155,16 +151,78 @@ void addUnit(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& uni
     putFlag(instance, "deactivation_forbidden", unit.staysActive);
 }
 
-void addGroup(std::vector<CfgInstance>& instances, const rt::MechanicalUnits& units, std::size_t number) {
+/// Of MECHANICAL_UNIT_GROUP; controllers call those that no file names rob1, rob2 ...
+std::string groupName(const MechanicalUnits& units, std::size_t number) {
+    const std::string& name = units.groups()[number].name;
+    return name.empty() ? fmt::format("rob{}", number + 1) : name;
+}
+
+void addGroup(std::vector<CfgInstance>& instances, const MechanicalUnits& units, std::size_t number) {
     CfgInstance& instance = add(instances);
-    const rt::MotionGroup& group = units.groups()[number];
-    const std::string fallback = number == 0 ? "rob1" : fmt::format("rob{}", number + 1);
-    put(instance, "Name", group.name.empty() ? fallback : group.name);
+    const MotionGroup& group = units.groups()[number];
+    put(instance, "Name", groupName(units, number));
     put(instance, "Robot", group.robot);
     std::size_t other = 1;
     for (const auto& unit : units.all())
         if (!unit->isRobot && unit->group == number && other <= 6)
             put(instance, fmt::format("MechanicalUnit_{}", other++), unit->name);
+}
+
+void addTask(std::vector<CfgInstance>& instances, const Controller& controller, const Task& task) {
+    CfgInstance& instance = add(instances);
+    put(instance, "Name", task.name());
+    put(instance, "Type", controller.program().tasks[task.index()].type);
+    putFlag(instance, "MotionTask", task.isMotionTask());
+    if (!task.isMotionTask()) return;
+    const auto group = static_cast<std::size_t>(task.motionGroup());
+    if (group < controller.units().groups().size())
+        put(instance, "UseMechanicalUnitGroup", groupName(controller.units(), group));
+}
+
+/// Levels of access that every controller has; the client on the controller is the FlexPendant.
+void addAccessLevels(std::vector<CfgInstance>& instances) {
+    constexpr std::array kAll = {"Rapid", "LocalManual", "LocalAuto", "RemoteManual", "RemoteAuto"};
+    constexpr std::array kLevels = {std::pair("All", 5), std::pair("Default", 2), std::pair("ReadOnly", 0)};
+    for (const auto& [name, rights] : kLevels) {
+        CfgInstance& instance = add(instances);
+        put(instance, "Name", name);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(rights); ++i)
+            putFlag(instance, kAll[i], true);
+    }
+}
+
+/// Calibration of each axis, and the serial number and arm loads of each robot.
+void addRobotData(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
+                  const MechanicalUnit& unit, std::string_view type) {
+    constexpr int kArmLoads = 4; // of each robot
+    if (type == "MOTOR_CALIB")
+        for (const Axis& axis : axesOf(units, unit)) {
+            CfgInstance& instance = add(instances);
+            put(instance, "name", axis.name);
+            putFlag(instance, "valid_cal_offset", true);
+        }
+    if (!unit.isRobot) return;
+    if (type == "ROBOT_SERIAL_NUMBER") {
+        CfgInstance& instance = add(instances);
+        const std::size_t hyphen = kSerialNumber.find('-');
+        put(instance, "name", fmt::format("rob_{}", unit.group + 1));
+        put(instance, "robot_serial_number_high_part", std::string(kSerialNumber.substr(0, hyphen)));
+        put(instance, "robot_serial_number_low_part", std::string(kSerialNumber.substr(hyphen + 1)));
+    }
+    if (type == "ARM_LOAD")
+        for (int i = 1; i <= kArmLoads; ++i)
+            put(add(instances), "name", fmt::format("r{}_load_{}", unit.group + 1, i));
+}
+
+void addSingles(std::vector<CfgInstance>& instances, const MechanicalUnits& units, const MechanicalUnit& unit) {
+    for (const Axis& axis : axesOf(units, unit)) {
+        CfgInstance& single = add(instances);
+        put(single, "name", axis.name);
+        put(single, "use_single_type", axis.name);
+        put(single, "use_joint", axis.name);
+        const auto index = static_cast<std::size_t>(axis.kinematic - 1);
+        putFrame(single, index < unit.geometry.joints.size() ? unit.geometry.joints[index].base : robot::Pose());
+    }
 }
 
 } // namespace
@@ -188,15 +246,18 @@ std::vector<std::string> cfgTypesOf(std::string_view domain) {
     return types;
 }
 
-std::vector<CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std::string_view domain,
+std::vector<CfgInstance> impliedInstances(const Controller& controller, std::string_view domain,
                                           std::string_view wanted) {
     std::vector<CfgInstance> instances;
-    const std::string type = rapid::config::upperCase(wanted);
-    if (sameName(domain, "SYS") && type == "MECHANICAL_UNIT_GROUP") {
+    const MechanicalUnits& units = controller.units();
+    const std::string type = upperCase(wanted);
+    if (sameName(domain, "SYS") && type == "MECHANICAL_UNIT_GROUP")
         for (std::size_t i = 0; i < units.groups().size(); ++i)
             addGroup(instances, units, i);
-        return instances;
-    }
+    if (sameName(domain, "SYS") && type == "CAB_TASKS")
+        for (const auto& task : controller.tasks())
+            addTask(instances, controller, *task);
+    if (sameName(domain, "EIO") && type == "EIO_ACCESS") addAccessLevels(instances);
     if (!sameName(domain, "MOC")) return instances;
     for (const auto& unit : units.all()) {
         if (type == "ARM" || type == "JOINT" || type == "TRANSMISSION")
@@ -204,18 +265,10 @@ std::vector<CfgInstance> impliedInstances(const rt::MechanicalUnits& units, std:
                 addAxis(instances, type, axis);
         if (type == "ROBOT" && unit->isRobot) addRobot(instances, units, *unit);
         if (type == "MECHANICAL_UNIT") addUnit(instances, units, *unit);
-        if (type != "SINGLE" || unit->isRobot) continue;
-        for (const Axis& axis : axesOf(units, *unit)) {
-            CfgInstance& single = add(instances);
-            put(single, "name", axis.name);
-            put(single, "use_single_type", axis.name);
-            put(single, "use_joint", axis.name);
-            const auto index = static_cast<std::size_t>(axis.kinematic - 1);
-            putFrame(single, index < unit->geometry.joints.size() ? unit->geometry.joints[index].base
-                                                                  : robot::Pose());
-        }
+        if (type == "SINGLE" && !unit->isRobot) addSingles(instances, units, *unit);
+        addRobotData(instances, units, *unit, type);
     }
     return instances;
 }
 
-} // namespace rapidc::service
+} // namespace rt
