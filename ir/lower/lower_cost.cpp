@@ -5,6 +5,8 @@
 
 #include "ir/lower/routine_lowering.h"
 
+#include "ir/core/op_info.h"
+
 #include <algorithm>
 
 namespace rapid::lower {
@@ -21,13 +23,29 @@ void RoutineLowering::closeCosts() {
     costs_ = costs_->outer;
 }
 
+/// The statement that a block begins with, or the blocks it always leads to: a trap routine that runs in between was called
+/// when that statement is entered, and so an error of it is raised there.
+ir::StmtId RoutineLowering::firstStatement(ir::BlockId block) const {
+    for (size_t hops = 0; hops < routine_.blocks.size(); ++hops) {
+        for (const ValueId id : routine_.blocks[block].insts) {
+            const ir::Inst& inst = routine_.insts[id];
+            if (inst.op == Op::Stmt) return inst.index;
+            if (inst.stmt != ir::kNone) return inst.stmt;
+            if (ir::familyOf(inst.op) != ir::Family::End) continue;
+            // the choice between the BACKWARD part and the body, whose statements are charged
+            if (inst.op != Op::Br && inst.op != Op::CondBr) return ir::kNone;
+            block = inst.target[inst.op == Op::Br ? 0 : 1];
+        }
+    }
+    return ir::kNone;
+}
+
 void RoutineLowering::chargeAtFront(ir::BlockId block, uint32_t cost) {
     std::vector<ValueId>& insts = routine_.blocks[block].insts;
     ir::Inst charge;
     charge.op = Op::Charge;
     charge.extra = static_cast<int32_t>(cost);
-    for (auto id = insts.begin(); id != insts.end() && charge.stmt == ir::kNone; ++id)
-        charge.stmt = routine_.insts[*id].stmt;
+    charge.stmt = firstStatement(block);
     routine_.insts.push_back(std::move(charge));
     insts.insert(insts.begin(), static_cast<ValueId>(routine_.insts.size() - 1));
 }

@@ -144,6 +144,7 @@ class RoutineLowering {
     void openCosts(CostScope& scope);
     void closeCosts();
     void chargeAtFront(ir::BlockId block, uint32_t cost);
+    ir::StmtId firstStatement(ir::BlockId block) const;
     void chargeJump(const syntax::Node* label);
     void chargeRounds(const Counting& counting, uint32_t cost);
     bool isFreeOfCalls(size_t firstInst) const;
