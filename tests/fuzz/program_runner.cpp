@@ -30,6 +30,13 @@ constexpr const char* kSignals =
     "      -Name \"ai1\" -SignalType \"AI\"\n      -Name \"ai2\" -SignalType \"AI\"\n"
     "      -Name \"ao1\" -SignalType \"AO\"\n      -Name \"ao2\" -SignalType \"AO\"\n";
 
+std::string contentsOf(int descriptor) {
+    std::string out(static_cast<size_t>(::lseek(descriptor, 0, SEEK_END)), '\0');
+    const ssize_t got = ::pread(descriptor, out.data(), out.size(), 0);
+    out.resize(got > 0 ? static_cast<size_t>(got) : 0);
+    return out;
+}
+
 /// Catches what is written to a descriptor, in memory.
 class Capture {
   public:
@@ -44,15 +51,24 @@ class Capture {
     }
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
-    std::string text() const {
-        std::string out(static_cast<size_t>(::lseek(memory_, 0, SEEK_END)), '\0');
-        const ssize_t got = ::pread(memory_, out.data(), out.size(), 0);
-        out.resize(got > 0 ? static_cast<size_t>(got) : 0);
-        return out;
-    }
+    std::string text() const { return contentsOf(memory_); }
 
   private:
     int descriptor_, saved_, memory_;
+};
+
+/// A file in memory, for what a run writes.
+class MemoryFile {
+  public:
+    MemoryFile() : descriptor_(::memfd_create("record", 0)) {}
+    ~MemoryFile() { ::close(descriptor_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    std::string text() const { return contentsOf(descriptor_); }
+
+  private:
+    int descriptor_;
 };
 
 std::string show(const diag::Sink& sink) {
@@ -125,6 +141,7 @@ RunResult ProgramRunner::run(Way way) {
     demand(findings.empty(), "checked, but the IR is wrong:\n" + findings);
     codegen::CodegenOptions codegenOptions = rapidc::codegenOptions(way.optimise);
     codegenOptions.debugInfo = false;
+    codegenOptions.interpretsAll = way.interpreted;
     if (way.inParts) codegenOptions.partsAbove = 0;
     static const std::vector<codegen::NativeSymbol> symbols = rapidc::nativeSymbols();
     std::string error;
@@ -134,6 +151,13 @@ RunResult ProgramRunner::run(Way way) {
     runOptions.hasMaxTime = true;
     runOptions.maxTime = 2;
     runOptions.stackBytes = 1u << 20;
+    const MemoryFile events, signals, errors;
+    if (way.records) {
+        runOptions.maxTime = 20;
+        runOptions.outputs.events = events.path();
+        runOptions.outputs.signals = signals.path();
+        runOptions.outputs.errors = errors.path();
+    }
     RunResult result;
     {
         const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
@@ -146,6 +170,9 @@ RunResult ProgramRunner::run(Way way) {
         std::fflush(stdout);
         std::fflush(stderr);
         result.output = out.text();
+        result.events = events.text();
+        result.signals = signals.text();
+        result.errors = errors.text();
     }
     demand(result.status == 0 || result.status == 1 || result.status == 4 ||
                (result.status == 2 && refusable_),
@@ -199,6 +226,38 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
                      release.output.c_str(), stepping.status, stepping.output.c_str());
         require(false, "the profiles differ");
     }
+    return true;
+}
+
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
+    ++tally().all;
+    const bool accepted = runner.check(tasks);
+    if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
+        for (const auto& task : tasks)
+            for (const std::string& text : task)
+                std::fprintf(stderr, "%s", text.c_str());
+        std::fprintf(stderr, "%s", runner.errors().c_str());
+    }
+    if (!accepted) return false;
+    ++tally().accepted;
+    const RunResult plain = runner.run({.optimise = false, .records = true});
+    tally().ended += plain.status == 0 ? 1u : 0u;
+    const auto compare = [&](const char* name, const RunResult& other) {
+        const auto same = [&](const char* what, const std::string& expected, const std::string& found) {
+            if (expected == found) return;
+            std::fprintf(stderr, "%s---- %s of the release profile:\n%s---- %s:\n%s",
+                         runner.sources().c_str(), what, expected.c_str(), name, found.c_str());
+            require(false, "the profiles differ");
+        };
+        same("output", plain.output, other.output);
+        same("signals", plain.signals, other.signals);
+        same("errors", plain.errors, other.errors);
+        same("events", plain.events, other.events);
+        same("status", std::to_string(plain.status), std::to_string(other.status));
+    };
+    compare("stepping", runner.run({.stepping = true, .optimise = false, .records = true}));
+    compare("interpreted", runner.run({.optimise = false, .interpreted = true, .records = true}));
+    ++tally().compared;
     return true;
 }
 

@@ -12,12 +12,15 @@ namespace rapid::fuzz {
 struct Way {
     bool stepping = false;
     bool optimise = true;
+    bool interpreted = false;
+    bool records = false; ///< events, signals and errors are part of the result
     bool inParts = false; ///< compiled routine by routine when they are called, as large programs are
 };
 
 struct RunResult {
     int status = 0;
-    std::string output; ///< of TPWrite
+    std::string output;                  ///< of TPWrite
+    std::string events, signals, errors; ///< the files that a run writes; empty without Way::records
 };
 
 /// Texts of the modules of each task; the first one is T_ROB1.
@@ -32,6 +35,8 @@ class ProgramRunner {
     bool check(const TaskTexts& tasks);
     /// Errors of the last check, for people.
     const std::string& errors() const { return errors_; }
+    /// The modules of the last check, with their names.
+    const std::string& sources() const { return sources_; }
     /// Breaks off the process with a message when the program does not come through.
     RunResult run(Way way);
 
@@ -51,6 +56,9 @@ struct Tally {
 /// Checks, runs in two profiles, compares what they print unless `hasTime`. False: check refuses the program. `optimise`: the
 /// release profile with the optimiser, as a whole and in parts, which must print the same.
 bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise);
+
+/// Checks, and compares output, events, signals with their times, and errors of all profiles. False: check refuses the program.
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks);
 
 /// Of tryProgram() in this process; shown when it ends. RAPIDC_FUZZ_SHOW=1 shows programs and refusals as well.
 Tally& tally();
