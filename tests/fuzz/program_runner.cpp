@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fcntl.h>
+#include <sstream>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -229,6 +230,21 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
     return true;
 }
 
+namespace {
+
+/// Warnings of handled errors are written when it is known that the handler has not called SkipWarn: at a time that hangs on
+/// the profile. RunResult::errors has these errors with their own times.
+std::string withoutHandled(const std::string& events) {
+    std::string kept;
+    std::istringstream lines(events);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("\"number\":40901,") == std::string::npos)
+            kept += line.substr(line.find("\"number\"")) + "\n"; // without its number in the log
+    return kept;
+}
+
+} // namespace
+
 bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
     ++tally().all;
     const bool accepted = runner.check(tasks);
@@ -252,7 +268,7 @@ bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
         same("output", plain.output, other.output);
         same("signals", plain.signals, other.signals);
         same("errors", plain.errors, other.errors);
-        same("events", plain.events, other.events);
+        same("events", withoutHandled(plain.events), withoutHandled(other.events));
         same("status", std::to_string(plain.status), std::to_string(other.status));
     };
     compare("stepping", runner.run({.stepping = true, .optimise = false, .records = true}));

@@ -93,6 +93,7 @@ def write_ctest(path, source, build):
         if entry.is_dir():
             add("fuzz/" + entry.name, [sys.executable, os.path.join(source, "tests", "harness", "replay.py"),
                                        os.path.join(build, "rapidc_replay_" + entry.name), entry.path], 240)
+    add("fuzz/tasks_random", [os.path.join(build, "rapidc_replay_tasks"), "-random=8"], 240)
     scripts = os.path.join(source, "scripts")
     add("layers/layering", [sys.executable, os.path.join(scripts, "check_layering.py"), "--source", source], 60)
     layers = os.path.join(source, "tests", "layers")
