@@ -37,7 +37,8 @@ CfgType read(const Row& row) {
         const std::string_view one = rest.substr(0, rest.find(','));
         rest.remove_prefix(std::min(rest.size(), one.size() + 1));
         const std::size_t colon = one.find(':');
-        type.attributes.push_back({std::string(one.substr(0, colon)), static_cast<CfgValueKind>(one[colon + 1]),
+        type.attributes.push_back({std::string(one.substr(0, colon)),
+                                   static_cast<CfgValueKind>(one[colon + 1]),
                                    std::string(one.substr(colon + 3))});
     }
     return type;
@@ -125,8 +126,7 @@ void addAxis(std::vector<CfgInstance>& instances, std::string_view type, const A
     }
 }
 
-void addRobot(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
-              const MechanicalUnit& unit) {
+void addRobot(std::vector<CfgInstance>& instances, const MechanicalUnits& units, const MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
     const MotionGroup& group = units.groups()[unit.group];
     put(instance, "name", unit.name);
@@ -138,8 +138,7 @@ void addRobot(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
     put(instance, "base_frame_coordinated", unit.carrier);
 }
 
-void addUnit(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
-             const MechanicalUnit& unit) {
+void addUnit(std::vector<CfgInstance>& instances, const MechanicalUnits& units, const MechanicalUnit& unit) {
     CfgInstance& instance = add(instances);
     put(instance, "name", unit.name);
     if (unit.isRobot) put(instance, "use_robot", unit.name);
@@ -214,14 +213,16 @@ void addRobotData(std::vector<CfgInstance>& instances, const MechanicalUnits& un
             put(add(instances), "name", fmt::format("r{}_load_{}", unit.group + 1, i));
 }
 
-void addSingles(std::vector<CfgInstance>& instances, const MechanicalUnits& units, const MechanicalUnit& unit) {
+void addSingles(std::vector<CfgInstance>& instances, const MechanicalUnits& units,
+                const MechanicalUnit& unit) {
     for (const Axis& axis : axesOf(units, unit)) {
         CfgInstance& single = add(instances);
         put(single, "name", axis.name);
         put(single, "use_single_type", axis.name);
         put(single, "use_joint", axis.name);
         const auto index = static_cast<std::size_t>(axis.kinematic - 1);
-        putFrame(single, index < unit.geometry.joints.size() ? unit.geometry.joints[index].base : robot::Pose());
+        putFrame(single,
+                 index < unit.geometry.joints.size() ? unit.geometry.joints[index].base : robot::Pose());
     }
 }
 

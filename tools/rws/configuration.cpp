@@ -2,11 +2,11 @@
 
 #include "config/letter_case.h"
 #include "config/read_file.h"
+#include "runtime/host/cfg_types.h"
 #include "tools/rws/file_service.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 #include "tools/rws/state_watch.h"
-#include "runtime/host/cfg_types.h"
 
 #include <fmt/format.h>
 

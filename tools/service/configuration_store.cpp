@@ -303,7 +303,8 @@ Refusal ConfigurationStore::put(CfgInstance& instance, const std::string& domain
     const bool wasFlag = present != nullptr && present->values.empty();
     if (kind != nullptr && kind->kind == CfgValueKind::Number && !isNumber)
         return fmt::format("{} is a number, '{}' is none", attribute, value);
-    if (kind != nullptr && kind->kind == CfgValueKind::Flag && !isFlagText(value) && value != "0" && value != "1")
+    if (kind != nullptr && kind->kind == CfgValueKind::Flag && !isFlagText(value) && value != "0" &&
+        value != "1")
         return fmt::format("{} is true or false, not '{}'", attribute, value);
     CfgAttribute written{present != nullptr ? present->name
                          : kind != nullptr  ? kind->name

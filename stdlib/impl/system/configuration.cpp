@@ -163,7 +163,9 @@ void Configuration::addRobots(Controller& controller) {
             CfgInstance& owner = isSingle ? motionInstance("SINGLE", fmt::format("{}_{}", unit, kRobotAxes))
                                           : motionInstance("ROBOT", unit);
             const std::string attribute = isSingle ? "use_joint" : fmt::format("use_joint_{}", axis);
-            if (!isSingle) ensureText(owner, "use_robot_type", robotTypeName(model.name, static_cast<std::size_t>(number - 1)));
+            if (!isSingle)
+                ensureText(owner, "use_robot_type",
+                           robotTypeName(model.name, static_cast<std::size_t>(number - 1)));
             ensureText(owner, attribute, fmt::format("rob{}_{}", number, axis + 1));
             addAxis(model, axis, owner.text(attribute));
         }
@@ -216,8 +218,8 @@ CfgInstance& Configuration::kept(CfgInstance& instance) {
     for (CfgFile& file : implied_) {
         for (CfgSection& section : file.sections) {
             std::vector<CfgInstance>& all = section.instances;
-            const auto own =
-                std::find_if(all.begin(), all.end(), [&](const CfgInstance& each) { return &each == &instance; });
+            const auto own = std::find_if(all.begin(), all.end(),
+                                          [&](const CfgInstance& each) { return &each == &instance; });
             if (own == all.end()) continue;
             CfgFile& kept = files_.emplace_back(CfgFile{file.name, file.domain, file.version, {}});
             kept.sections.push_back({section.type, {}, {*own}, 0});

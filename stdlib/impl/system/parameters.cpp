@@ -114,8 +114,7 @@ Status readAttribute(TaskCore* task, const Found& found, const String& name, voi
                      const TypeDesc& type) {
     const CfgKind wanted = kindFor(type);
     CfgAttribute standard;
-    const CfgAttribute* attribute =
-        found.configuration->attribute(found.path, *found.instance, name.view());
+    const CfgAttribute* attribute = found.configuration->attribute(found.path, *found.instance, name.view());
     if (attribute == nullptr) {
         if (!standardValue(found, name.view(), standard)) return noAttribute(task, found, name);
         attribute = &standard;
