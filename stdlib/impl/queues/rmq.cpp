@@ -214,7 +214,11 @@ Status rt_IRMQMessage(TaskCore* task, void*, const TypeDesc* InterruptDataTypeTy
     if (ownQueue(task).mode == QueueMode::Synchronous)
         return misused(task, "IRMQMessage",
                        "is for tasks in interrupt mode; this one is configured as Synchronous.");
-    lib::orderMessages(taskOf(task), number, lib::elementType(*InterruptDataTypeType).baseName);
+    const std::string_view type = lib::elementType(*InterruptDataTypeType).baseName;
+    lib::orderMessages(taskOf(task), number, std::string(type));
+    // Messages that came before the order wait in the queue of a task without mode (decision 20).
+    for (const lib::Message& message : ownQueue(task).messages)
+        if (message.typeName() == type) table.post(number);
     return kOk;
 }
 }
