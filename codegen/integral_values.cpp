@@ -40,11 +40,11 @@ class Web {
                 (inst.getType()->isFloatTy() || inst.getType()->isDoubleTy()))
                 nodes_.insert({&inst, nullptr});
         dropUnless([&](const llvm::Instruction& node) { return isOneOfWholes(node); });
-        // If no value is converted back, the floating-point number is the result.
+        // If no value is converted back or compared with a converted one, the floating-point number is the result.
         dropUnless([&](const llvm::Instruction& node) {
             return std::any_of(node.user_begin(), node.user_end(), [&](const llvm::User* user) {
                 return llvm::isa<llvm::FPToSIInst>(user) || llvm::isa<llvm::FPToUIInst>(user) ||
-                       contains(user);
+                       comparesWholes(*user) || contains(user);
             });
         });
         dropUnless([&](const llvm::Instruction& node) { return isOneOfWholes(node); });
@@ -71,19 +71,18 @@ class Web {
         }
     }
 
+    static bool comparesWholes(const llvm::User& user) {
+        return llvm::isa<llvm::FCmpInst>(user) &&
+               (convertedWhole(user.getOperand(0)) || convertedWhole(user.getOperand(1)));
+    }
+
     bool isOneOfWholes(const llvm::Instruction& node) const {
         const std::vector<unsigned> operands = choices(node);
-        return std::all_of(operands.begin(), operands.end(),
-                           [&](unsigned i) { return isWhole(node.getOperand(i), whereUsed(node, i)); });
+        return std::all_of(operands.begin(), operands.end(), [&](unsigned i) { return isWhole(node, i); });
     }
 
-    /// The place where the operand takes effect: checks on the way there bound it.
-    static llvm::Instruction* whereUsed(const llvm::Instruction& node, unsigned operand) {
-        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&node);
-        return phi ? phi->getIncomingBlock(operand)->getTerminator() : const_cast<llvm::Instruction*>(&node);
-    }
-
-    bool isWhole(const Value* value, llvm::Instruction* at) const {
+    bool isWhole(const llvm::Instruction& node, unsigned i) const {
+        const Value* value = node.getOperand(i);
         if (contains(value) || llvm::isa<llvm::UndefValue>(value)) return true;
         if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
             const double number = constant->getValueAPF().convertToDouble();
@@ -91,12 +90,17 @@ class Web {
                    number < std::ldexp(1.0, static_cast<int>(exactBits(value->getType())));
         }
         Value* from = convertedWhole(value);
-        return from && bitsOf(from, at) <= exactBits(value->getType());
+        return from && bitsOf(from, node, i) <= exactBits(value->getType());
     }
 
-    /// Bits of a whole number, as many as it has when it may be negative.
-    unsigned bitsOf(Value* whole, llvm::Instruction* at) const {
-        return rangeOfWhole(whole, at, analyses_).getUnsignedMax().getActiveBits();
+    /// Bits of a whole number where it is an operand of the node, as many as it has when it may be negative. Checks on the way
+    /// there bound it.
+    unsigned bitsOf(Value* whole, const llvm::Instruction& node, unsigned i) const {
+        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&node);
+        const llvm::ConstantRange range =
+            phi ? rangeOfIncoming(whole, *phi, i, analyses_)
+                : rangeOfWhole(whole, const_cast<llvm::Instruction*>(&node), analyses_);
+        return range.getUnsignedMax().getActiveBits();
     }
 
     unsigned bitsOfOperand(const llvm::Instruction& node, unsigned i) const {
@@ -107,7 +111,7 @@ class Web {
                        std::ilogb(std::max(1.0, constant->getValueAPF().convertToDouble()))) +
                    1;
         Value* from = convertedWhole(operand);
-        return from ? bitsOf(from, whereUsed(node, i)) : 1;
+        return from ? bitsOf(from, node, i) : 1;
     }
 
     /// The widest number that comes into each node.
