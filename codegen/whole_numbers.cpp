@@ -212,7 +212,7 @@ namespace {
 /// Finds the range of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
 class RangeSearch {
   public:
-    /// Where the number is used: at an instruction, or where that, the end of a block, leads to another block.
+    /// The use of a number: an instruction, or the edge from that, the end of a block, to another block.
     struct Place {
         llvm::Instruction* at = nullptr;
         llvm::BasicBlock* to = nullptr;
@@ -244,7 +244,7 @@ class RangeSearch {
     static constexpr unsigned kMostLooks = 40;  // in one search
     static constexpr unsigned kMostChecks = 16; // on the way to a place
 
-    /// What the branches on the way from the instruction to the place say. LazyValueInfo gives up where the way leads through
+    /// The range that the branches on the way from the instruction to the place leave. LazyValueInfo gives up where the way leads through
     /// another loop.
     llvm::ConstantRange fromChecks(llvm::Instruction& whole, Place place) {
         llvm::Function& function = *whole.getFunction();
