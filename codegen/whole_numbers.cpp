@@ -233,13 +233,15 @@ class RangeSearch {
         if (evolution.isSCEVable(whole->getType()))
             range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
         auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
-        if (inst && range.isFullSet()) range = fromChecks(*inst, place);
+        if (inst && range.getUnsignedMax().getActiveBits() > kUseful)
+            range = range.intersectWith(fromChecks(*inst, place));
         if (depth == 0 || !inst || range.getUnsignedMax().getActiveBits() <= kKnownWell) return range;
         return range.intersectWith(fromOperands(*inst, place, depth - 1));
     }
 
   private:
     static constexpr unsigned kKnownWell = 8; // positions and bytes: operands would hardly tell more
+    static constexpr unsigned kUseful = 24;   // exact in F32
     static constexpr unsigned kMostOperands = 12;
     static constexpr unsigned kMostLooks = 40;  // in one search
     static constexpr unsigned kMostChecks = 16; // on the way to a place
@@ -274,6 +276,9 @@ class RangeSearch {
             return operand(0).castOp(llvm::cast<llvm::CastInst>(inst).getOpcode(),
                                      inst.getType()->getIntegerBitWidth());
         if (llvm::isa<llvm::SelectInst>(inst)) return operand(1).unionWith(operand(2));
+        // Only conversions, which have no operand here, give poison where their result is used.
+        if (llvm::isa<llvm::FreezeInst>(inst) && !llvm::isa<llvm::FPToSIInst>(inst.getOperand(0)))
+            return operand(0);
         if (const auto* extreme = llvm::dyn_cast<llvm::MinMaxIntrinsic>(&inst))
             return llvm::ConstantRange::intrinsic(extreme->getIntrinsicID(), {operand(0), operand(1)});
         auto* phi = llvm::dyn_cast<llvm::PHINode>(&inst);
