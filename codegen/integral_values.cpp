@@ -110,7 +110,7 @@ class Web {
         return std::ldexp(1.0, static_cast<int>(exactBits(node.getType()))) - 1;
     }
 
-    /// The largest value of an operand that is no node; infinity: it may be negative, or have decimals.
+    /// The largest value of an operand that is not a node; infinity: it may be negative, or have decimals.
     double largest(const llvm::Instruction& node, unsigned i) {
         const auto [found, isNew] = known_.try_emplace(&node.getOperandUse(i), kUnlimited);
         if (isNew) found->second = findLargest(node, i);
