@@ -232,7 +232,7 @@ class Web {
         }
         for (const unsigned i : operandsOf(node))
             made.setOperand(i, integer(node.getOperand(i), type, &made));
-        // A division by 0 may have been moved before the check of the divisor, and must not trap there.
+        // A division by 0 may have been moved before the check of the divisor, which must not end the process.
         if (isWholeDivision(node))
             made.setOperand(
                 1, llvm::IRBuilder<>(&made).CreateBinaryIntrinsic(llvm::Intrinsic::umax, made.getOperand(1),
