@@ -24,7 +24,7 @@ using llvm::BasicBlock;
 using llvm::Instruction;
 using llvm::Value;
 
-constexpr unsigned kMostInstructions = 400; ///< of the loop, which is copied
+constexpr unsigned kMostInstructions = 250; ///< of the loop, which is copied
 constexpr size_t kMostStarts = 4;
 constexpr size_t kMostReached = 64;
 constexpr unsigned kStartBits = 22; ///< sums of a few of them are exact in F32
@@ -164,8 +164,12 @@ class SecondForms {
             changed = true;
             analyses_.invalidate(function_, llvm::PreservedAnalyses::none());
             for (llvm::Loop* loop : analyses_.getResult<llvm::LoopAnalysis>(function_).getLoopsInPreorder())
-                if (copies_.contains(loop->getHeader()) && !llvm::getBooleanLoopAttribute(loop, kFirstForm))
+                if (copies_.contains(loop->getHeader()) && !llvm::getBooleanLoopAttribute(loop, kFirstForm)) {
                     llvm::addStringMetadataToLoop(loop, kFirstForm, 1);
+                    // It is seldom executed.
+                    llvm::addStringMetadataToLoop(loop, "llvm.loop.vectorize.enable", 0);
+                    llvm::addStringMetadataToLoop(loop, "llvm.loop.unroll.disable");
+                }
         }
         return changed;
     }
@@ -202,14 +206,12 @@ class SecondForms {
 llvm::PreservedAnalyses WholeStarts::run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
     if (analyses.getResult<llvm::LoopAnalysis>(function).empty()) return llvm::PreservedAnalyses::all();
     if (!SecondForms(function, analyses).make()) return llvm::PreservedAnalyses::all();
-    for (int round = 0; round < 2; ++round) {
-        analyses.invalidate(function, llvm::PreservedAnalyses::none());
-        IntegralValues().run(function, analyses);
-        analyses.invalidate(function, llvm::PreservedAnalyses::none());
-        llvm::InstCombinePass().run(function, analyses);
-        analyses.invalidate(function, llvm::PreservedAnalyses::none());
-        llvm::SimplifyCFGPass().run(function, analyses);
-    }
+    analyses.invalidate(function, llvm::PreservedAnalyses::none());
+    IntegralValues().run(function, analyses);
+    analyses.invalidate(function, llvm::PreservedAnalyses::none());
+    llvm::InstCombinePass().run(function, analyses);
+    analyses.invalidate(function, llvm::PreservedAnalyses::none());
+    llvm::SimplifyCFGPass().run(function, analyses);
     return llvm::PreservedAnalyses::none();
 }
 
