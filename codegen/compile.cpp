@@ -29,6 +29,7 @@
 #include "codegen/small_copies.h"
 #include "codegen/unchecked_rounds.h"
 #include "codegen/whole_divisions.h"
+#include "codegen/whole_starts.h"
 
 namespace codegen {
 
@@ -136,6 +137,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
             passes.addPass(llvm::createFunctionToLoopPassAdaptor(llvm::LoopFullUnrollPass(2)));
         });
     builder.registerVectorizerStartEPCallback([](llvm::FunctionPassManager& passes, llvm::OptimizationLevel) {
+        passes.addPass(WholeStarts());
         passes.addPass(WholeDivisions());
         passes.addPass(BudgetLoops());
         passes.addPass(UncheckedRounds());

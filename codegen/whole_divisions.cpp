@@ -194,6 +194,10 @@ bool isWholeDivision(const Value& value) {
     return asksFor(value, WholeDivision::Quotient) || asksFor(value, WholeDivision::Remainder);
 }
 
+bool isWholeRemainder(const Value& value) {
+    return asksFor(value, WholeDivision::Remainder);
+}
+
 llvm::PreservedAnalyses WholeDivisions::run(llvm::Function& function,
                                             llvm::FunctionAnalysisManager& analyses) {
     const std::vector<llvm::CallInst*> calls = wholeDivisionsOf(function);

@@ -13,6 +13,7 @@ enum class WholeDivision { Quotient, Remainder };
 llvm::Value* createWholeDivision(llvm::IRBuilderBase& b, WholeDivision wanted, llvm::Value* number,
                                  llvm::Value* divisor);
 bool isWholeDivision(const llvm::Value& value);
+bool isWholeRemainder(const llvm::Value& value);
 
 /// Quotient and remainder of one pair of numbers are computed together. With a constant divisor c they are computed with 1 / c:
 /// when the remainder is from 0 to below c, both are exact. Otherwise the numbers are divided, and dividends whose neighbours the

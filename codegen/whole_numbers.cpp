@@ -31,27 +31,6 @@ bool isNeverZero(Value* whole, llvm::BranchInst& branch, llvm::LazyValueInfo& ra
     return !range.contains(llvm::APInt::getZero(range.getBitWidth()));
 }
 
-/// Whether nothing but converted and constant whole numbers, and what is computed from them, can reach the value. Otherwise
-/// it stays a floating-point number, and converting it back would only cost time.
-bool mayBecomeInteger(Value* value) {
-    constexpr size_t kMost = 64;
-    std::vector<Value*> reached{value};
-    for (size_t i = 0; i < reached.size(); ++i) {
-        if (reached.size() > kMost) return false;
-        if (llvm::isa<llvm::Constant>(reached[i]) || convertedWhole(reached[i])) continue;
-        const auto* inst = llvm::dyn_cast<llvm::Instruction>(reached[i]);
-        if (!inst) return false;
-        const bool isSelect = inst->getOpcode() == llvm::Instruction::Select;
-        if (!isSelect && !llvm::isa<llvm::PHINode>(inst) && inst->getOpcode() != llvm::Instruction::FAdd &&
-            inst->getOpcode() != llvm::Instruction::FSub && inst->getOpcode() != llvm::Instruction::FMul)
-            return false;
-        for (unsigned k = isSelect ? 1 : 0; k < inst->getNumOperands(); ++k)
-            if (std::find(reached.begin(), reached.end(), inst->getOperand(k)) == reached.end())
-                reached.push_back(inst->getOperand(k));
-    }
-    return true;
-}
-
 /// Computes with integers what floating-point instructions compute exactly.
 class Wholes {
   public:
@@ -106,24 +85,47 @@ class Wholes {
         return call && call->getIntrinsicID() == llvm::Intrinsic::fptosi_sat;
     }
 
-    std::optional<Whole> whole(Value* value, llvm::Instruction& at) {
-        Whole result;
-        if (const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value)) {
-            llvm::APSInt number(kWide, /*isUnsigned=*/false);
-            bool isExact = false;
-            const llvm::APFloat& given = constant->getValueAPF();
-            if (given.isNegZero() ||
-                given.convertToInteger(number, llvm::APFloat::rmTowardZero, &isExact) != llvm::APFloat::opOK)
-                return std::nullopt;
-            result.range = llvm::ConstantRange(number);
-        } else if (Value* converted = convertedWhole(value)) {
-            result.value = converted;
-            result.isSigned = llvm::isa<llvm::SIToFPInst>(value);
-            const llvm::ConstantRange known = rangeOfWhole(converted, &at, analyses_);
-            result.range = result.isSigned ? known.signExtend(kWide) : known.zeroExtend(kWide);
-        } else {
+    /// A constant; null: it is not a whole number.
+    static std::optional<Whole> wholeConstant(const Value* value) {
+        const auto* constant = llvm::dyn_cast<llvm::ConstantFP>(value);
+        if (!constant || constant->getValueAPF().isNegZero()) return std::nullopt;
+        llvm::APSInt number(kWide, /*isUnsigned=*/false);
+        bool isExact = false;
+        if (constant->getValueAPF().convertToInteger(number, llvm::APFloat::rmTowardZero, &isExact) !=
+            llvm::APFloat::opOK)
             return std::nullopt;
-        }
+        Whole result;
+        result.range = llvm::ConstantRange(number);
+        return result;
+    }
+
+    /// One of two constants: the step of a loop that counts up or down.
+    static std::optional<Whole> wholeChoice(Value* value) {
+        auto* select = llvm::dyn_cast<llvm::SelectInst>(value);
+        if (!select || select->getType()->isVectorTy()) return std::nullopt;
+        const auto a = wholeConstant(select->getTrueValue()), b = wholeConstant(select->getFalseValue());
+        constexpr unsigned kSmall = 16;
+        if (!a || !b || !fits(a->range, kSmall) || !fits(b->range, kSmall)) return std::nullopt;
+        llvm::IRBuilder<> builder(select);
+        const auto integer = [&](const Whole& whole) {
+            return builder.getInt32(static_cast<uint32_t>(whole.range.getSingleElement()->getSExtValue()));
+        };
+        Whole result;
+        result.value = builder.CreateSelect(select->getCondition(), integer(*a), integer(*b));
+        result.range = a->range.unionWith(b->range, llvm::ConstantRange::Signed);
+        return result;
+    }
+
+    std::optional<Whole> whole(Value* value, llvm::Instruction& at) {
+        if (const auto constant = wholeConstant(value))
+            return fits(constant->range, exactBits(value->getType()) + 1) ? constant : std::nullopt;
+        Whole result;
+        Value* converted = convertedWhole(value);
+        if (!converted) return wholeChoice(value);
+        result.value = converted;
+        result.isSigned = llvm::isa<llvm::SIToFPInst>(value);
+        const llvm::ConstantRange known = rangeOfWhole(converted, &at, analyses_);
+        result.range = result.isSigned ? known.signExtend(kWide) : known.zeroExtend(kWide);
         if (!fits(result.range, exactBits(value->getType()) + 1)) return std::nullopt;
         return result;
     }
@@ -210,48 +212,81 @@ namespace {
 /// Finds the range of a whole number. In large routines LazyValueInfo gives up soon, so operands are looked at as well.
 class RangeSearch {
   public:
+    /// The use of a number: an instruction, or the edge from that, the end of a block, to another block.
+    struct Place {
+        llvm::Instruction* at = nullptr;
+        llvm::BasicBlock* to = nullptr;
+    };
+
     explicit RangeSearch(llvm::FunctionAnalysisManager& analyses) : analyses_(analyses) {}
 
-    llvm::ConstantRange range(Value* whole, llvm::Instruction* at, unsigned depth) {
-        llvm::Function& function = *at->getFunction();
+    llvm::ConstantRange range(Value* whole, Place place, unsigned depth) {
+        llvm::Function& function = *place.at->getFunction();
         llvm::ConstantRange range = llvm::ConstantRange::fromKnownBits(
             llvm::computeKnownBits(whole, function.getDataLayout()), /*IsSigned=*/false);
         auto& ranges = analyses_.getResult<llvm::LazyValueAnalysis>(function);
-        range = range.intersectWith(ranges.getConstantRange(whole, at, /*UndefAllowed=*/false));
+        range = range.intersectWith(ranges.getConstantRange(whole, place.at, /*UndefAllowed=*/false));
+        if (place.to != nullptr)
+            range = range.intersectWith(
+                ranges.getConstantRangeOnEdge(whole, place.at->getParent(), place.to, place.at));
         auto& evolution = analyses_.getResult<llvm::ScalarEvolutionAnalysis>(function);
         if (evolution.isSCEVable(whole->getType()))
             range = range.intersectWith(evolution.getUnsignedRange(evolution.getSCEV(whole)));
         auto* inst = llvm::dyn_cast<llvm::Instruction>(whole);
+        if (inst && range.getUnsignedMax().getActiveBits() > kUseful)
+            range = range.intersectWith(fromChecks(*inst, place));
         if (depth == 0 || !inst || range.getUnsignedMax().getActiveBits() <= kKnownWell) return range;
-        return range.intersectWith(fromOperands(*inst, depth - 1));
+        return range.intersectWith(fromOperands(*inst, place, depth - 1));
     }
 
   private:
     static constexpr unsigned kKnownWell = 8; // positions and bytes: operands would hardly tell more
+    static constexpr unsigned kUseful = 24;   // exact in F32
     static constexpr unsigned kMostOperands = 12;
-    static constexpr unsigned kMostLooks = 40; // in one search
+    static constexpr unsigned kMostLooks = 40;  // in one search
+    static constexpr unsigned kMostChecks = 16; // on the way to a place
 
-    llvm::ConstantRange operand(llvm::Instruction& inst, unsigned i, llvm::Instruction* at, unsigned depth) {
-        return range(inst.getOperand(i), at, depth);
+    /// The range that the branches on the way from the instruction to the place leave. LazyValueInfo gives up where the way leads through
+    /// another loop.
+    llvm::ConstantRange fromChecks(llvm::Instruction& whole, Place place) {
+        llvm::Function& function = *whole.getFunction();
+        auto& ranges = analyses_.getResult<llvm::LazyValueAnalysis>(function);
+        auto& dominators = analyses_.getResult<llvm::DominatorTreeAnalysis>(function);
+        llvm::ConstantRange range(whole.getType()->getIntegerBitWidth(), /*isFullSet=*/true);
+        auto* node = dominators.getNode(place.at->getParent());
+        for (unsigned i = 0; node != nullptr && i < kMostChecks; ++i, node = node->getIDom()) {
+            llvm::BasicBlock* block = node->getBlock();
+            if (block == whole.getParent()) break;
+            llvm::BasicBlock* before = block->getSinglePredecessor();
+            if (before == nullptr) continue;
+            range = range.intersectWith(ranges.getConstantRangeOnEdge(&whole, before, block, place.at));
+        }
+        return range;
     }
 
-    llvm::ConstantRange fromOperands(llvm::Instruction& inst, unsigned depth) {
+    /// Operands are looked at where the result is used: checks of them that follow count as well.
+    llvm::ConstantRange fromOperands(llvm::Instruction& inst, Place place, unsigned depth) {
         const llvm::ConstantRange unknown(inst.getType()->getIntegerBitWidth(), /*isFullSet=*/true);
         if (++looks_ > kMostLooks) return unknown;
+        const auto operand = [&](unsigned i) { return range(inst.getOperand(i), place, depth); };
         if (const auto* operation = llvm::dyn_cast<llvm::BinaryOperator>(&inst))
-            return operand(inst, 0, &inst, depth)
-                .binaryOp(operation->getOpcode(), operand(inst, 1, &inst, depth));
+            return operand(0).binaryOp(operation->getOpcode(), operand(1));
         if (llvm::isa<llvm::ZExtInst>(inst) || llvm::isa<llvm::SExtInst>(inst) ||
             llvm::isa<llvm::TruncInst>(inst))
-            return operand(inst, 0, &inst, depth)
-                .castOp(llvm::cast<llvm::CastInst>(inst).getOpcode(), inst.getType()->getIntegerBitWidth());
-        if (llvm::isa<llvm::SelectInst>(inst))
-            return operand(inst, 1, &inst, depth).unionWith(operand(inst, 2, &inst, depth));
-        const auto* phi = llvm::dyn_cast<llvm::PHINode>(&inst);
+            return operand(0).castOp(llvm::cast<llvm::CastInst>(inst).getOpcode(),
+                                     inst.getType()->getIntegerBitWidth());
+        if (llvm::isa<llvm::SelectInst>(inst)) return operand(1).unionWith(operand(2));
+        // Only conversions, which have no operand here, give poison where their result is used.
+        if (llvm::isa<llvm::FreezeInst>(inst) && !llvm::isa<llvm::FPToSIInst>(inst.getOperand(0)))
+            return operand(0);
+        if (const auto* extreme = llvm::dyn_cast<llvm::MinMaxIntrinsic>(&inst))
+            return llvm::ConstantRange::intrinsic(extreme->getIntrinsicID(), {operand(0), operand(1)});
+        auto* phi = llvm::dyn_cast<llvm::PHINode>(&inst);
         if (!phi || phi->getNumIncomingValues() > kMostOperands) return unknown;
         llvm::ConstantRange all(unknown.getBitWidth(), /*isFullSet=*/false);
         for (unsigned i = 0; i < phi->getNumIncomingValues() && !all.isFullSet(); ++i)
-            all = all.unionWith(operand(inst, i, phi->getIncomingBlock(i)->getTerminator(), depth));
+            all = all.unionWith(range(phi->getIncomingValue(i),
+                                      {phi->getIncomingBlock(i)->getTerminator(), phi->getParent()}, depth));
         return all;
     }
 
@@ -263,11 +298,37 @@ class RangeSearch {
 
 llvm::ConstantRange rangeOfWhole(llvm::Value* whole, llvm::Instruction* at,
                                  llvm::FunctionAnalysisManager& analyses, unsigned depth) {
-    return RangeSearch(analyses).range(whole, at, depth);
+    return RangeSearch(analyses).range(whole, {at, nullptr}, depth);
+}
+
+llvm::ConstantRange rangeOfIncoming(llvm::Value* whole, const llvm::PHINode& phi, unsigned operand,
+                                    llvm::FunctionAnalysisManager& analyses) {
+    auto* to = const_cast<llvm::BasicBlock*>(phi.getParent());
+    constexpr unsigned kDepth = 4;
+    return RangeSearch(analyses).range(whole, {phi.getIncomingBlock(operand)->getTerminator(), to}, kDepth);
 }
 
 unsigned exactBits(const llvm::Type* type) {
     return type->isFloatTy() ? 24 : 53;
+}
+
+bool mayBecomeInteger(Value* value) {
+    constexpr size_t kMost = 64;
+    std::vector<Value*> reached{value};
+    for (size_t i = 0; i < reached.size(); ++i) {
+        if (reached.size() > kMost) return false;
+        if (llvm::isa<llvm::Constant>(reached[i]) || convertedWhole(reached[i])) continue;
+        const auto* inst = llvm::dyn_cast<llvm::Instruction>(reached[i]);
+        if (!inst) return false;
+        const bool isSelect = inst->getOpcode() == llvm::Instruction::Select;
+        if (!isSelect && !llvm::isa<llvm::PHINode>(inst) && inst->getOpcode() != llvm::Instruction::FAdd &&
+            inst->getOpcode() != llvm::Instruction::FSub && inst->getOpcode() != llvm::Instruction::FMul)
+            return false;
+        for (unsigned k = isSelect ? 1 : 0; k < inst->getNumOperands(); ++k)
+            if (std::find(reached.begin(), reached.end(), inst->getOperand(k)) == reached.end())
+                reached.push_back(inst->getOperand(k));
+    }
+    return true;
 }
 
 llvm::PreservedAnalyses WholeAfterCheck::run(llvm::Function& function,
