@@ -205,14 +205,7 @@ void WordWriter::block(ir::BlockId id) {
 }
 
 bool WordWriter::needsStatement(const ir::Inst& inst) const {
-    switch (inst.op) {
-    case ir::Op::Safepoint:
-    case ir::Op::StackAlloc:
-    case ir::Op::Propagate:
-    case ir::Op::HandlerEnd:
-    case ir::Op::Retry: return true;
-    default: return ir::mayRaise(module_, inst);
-    }
+    return ir::opInfo(inst.op).atStatement || ir::mayRaise(module_, inst);
 }
 
 void WordWriter::note(ir::StmtId statement) {

@@ -10,6 +10,8 @@ namespace rapid::stdlib {
 struct StdlibSource {
     const char* name;      ///< "decl/math.sysx"
     std::string_view text; ///< UTF-8
+    /// The same lines without the text of the documentation, for whoever only checks and compiles.
+    std::string_view declarations;
 };
 
 /// All declaration files, decl before data, sorted by name.

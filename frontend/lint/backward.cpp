@@ -73,7 +73,7 @@ class BackwardJudge {
         return out;
     }
 
-    /// Without a target where the instruction moves to none; nothing where its name does not tell the kind.
+    /// Without a target where the instruction moves to none; nothing where the kind of its path is not declared.
     std::optional<Movement> movementOf(const CallStmt& stmt, const BoundCall& call) const {
         Movement out;
         out.stmt = &stmt;
@@ -83,12 +83,12 @@ class BackwardJudge {
             if (arg.param->name == "CirPoint") out.circlePoint = arg.value;
             if (arg.param->name == "ToPoint" || arg.param->name == "ToJointPos") out.target = arg.value;
         }
-        const std::string& name = call.routine->name;
-        if (out.circlePoint)
+        const sema::Traits& traits = call.routine->traits;
+        if (traits.has(sema::Trait::Circular))
             out.kind = Movement::Kind::Circular;
-        else if (name.find('J') != std::string::npos)
+        else if (traits.has(sema::Trait::Joint))
             out.kind = Movement::Kind::Joint;
-        else if (name.find('L') != std::string::npos)
+        else if (traits.has(sema::Trait::Linear))
             out.kind = Movement::Kind::Linear;
         else if (out.target)
             return std::nullopt;

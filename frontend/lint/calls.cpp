@@ -107,7 +107,7 @@ void Walker::reference(const BoundCall& call, const BoundArg& arg) {
         write(*arg.value, kAssigned, true); // "Incr n;"
     else
         write(*arg.value, kRead);
-    if (param->type.type == predefined_.types.intnum) interrupt(call, arg);
+    if (param->type.type->known == sema::KnownType::Interrupt) interrupt(call, arg);
 }
 
 void Walker::interrupt(const BoundCall& call, const BoundArg& arg) {
@@ -184,8 +184,8 @@ const MoveParams& Walker::moveParams(const RoutineSymbol& routine) {
     for (size_t i = 0; i < routine.params.size(); ++i) {
         const DataSymbol& param = *routine.params[i];
         const int index = static_cast<int>(i);
-        if (param.type.type == predefined_.types.zone) out.zone = index;
-        if (param.type.type == predefined_.types.speed && out.speed < 0) out.speed = index;
+        if (param.type.type->known == sema::KnownType::Zone) out.zone = index;
+        if (param.type.type->known == sema::KnownType::Speed && out.speed < 0) out.speed = index;
         if (!param.optional) continue;
         if (named(param, "Z")) out.zoneSize = index;
         if (named(param, "V")) out.speedValue = index;

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "frontend/lint/walker.h"
+#include "frontend/sema/type_rules.h"
 #include "frontend/syntax/lexer.h"
 #include "frontend/syntax/limits.h"
 #include "frontend/syntax/tree_walk.h"
@@ -164,9 +165,7 @@ void Walker::judgeCase(const Expr& subject, const Expr& value) {
 void Walker::judgeSignal(const Expr& signal, const Expr& value) {
     const Expr& place = bare(signal);
     const DataSymbol* root = place.kind == NodeKind::Name ? rootOf(place) : nullptr;
-    if (!root || root->type.type->kind != TypeKind::SemiValue) return;
-    const std::string& type = root->type.type->base()->name;
-    if (type != "signaldi" && type != "signaldo") return;
+    if (!root || !isDigital(*root->type.type)) return;
     const double* constantValue = number(value);
     if (constantValue && *constantValue != 0 && *constantValue != 1)
         report(say::ImpossibleSignalValue, range(value), {root->name, text(value)});

@@ -100,16 +100,9 @@ template <class Visit> void forEachFraction(const sema::ConstValue& value, const
         forEachFraction(member, visit);
 }
 
-/// Types of the standard library that warnings are about; null when it does not declare them.
-struct KnownTypes {
-    const sema::Type *intnum = nullptr, *zone = nullptr, *speed = nullptr, *tool = nullptr,
-                     *workObject = nullptr, *load = nullptr;
-};
-
-/// Predefined things by name, for what hides them, and the types above.
+/// Predefined things by name, for what hides them.
 struct Predefined {
     std::vector<const sema::Symbol*> byName; ///< by Symbol::nameId
-    KnownTypes types;
     explicit Predefined(const sema::CheckedProgram& program);
 };
 

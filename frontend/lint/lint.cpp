@@ -45,13 +45,6 @@ Predefined::Predefined(const sema::CheckedProgram& program) {
     for (const Module* module : program.predefinedModules) {
         for (const TypeSymbol* type : module->types) {
             add(type);
-            const std::string& name = type->name;
-            if (name == "intnum") types.intnum = type->type;
-            if (name == "zonedata") types.zone = type->type;
-            if (name == "speeddata") types.speed = type->type;
-            if (name == "tooldata") types.tool = type->type;
-            if (name == "wobjdata") types.workObject = type->type;
-            if (name == "loaddata") types.load = type->type;
         }
         for (const DataSymbol* data : module->data)
             add(data);
@@ -349,8 +342,8 @@ void TaskLint::data(const DataSymbol& data) {
     if (data.used || facts_.dataByName || mayBeUsedElsewhere(data)) return;
     // Persistents are the door to the outside: displays, other computers, jogging.
     const sema::Type* t = data.type.type;
-    if (pers && (!data.isLocal || t == predefined_.types.tool || t == predefined_.types.workObject ||
-                 t == predefined_.types.load))
+    if (pers && (!data.isLocal || t->known == sema::KnownType::Tool ||
+                 t->known == sema::KnownType::WorkObject || t->known == sema::KnownType::Load))
         return;
     report(say::UnusedVariable, data, {kind, data.name});
 }

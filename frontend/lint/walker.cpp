@@ -3,6 +3,7 @@
 #include "frontend/lint/walker.h"
 
 #include "frontend/sema/names.h"
+#include "frontend/sema/type_rules.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -363,10 +364,7 @@ bool Walker::isOpenSubject(const Expr& subject) const {
     if (subject.kind == NodeKind::Call) return true;
     const DataSymbol* root = subject.kind == NodeKind::Name ? rootOf(subject) : nullptr;
     if (!root) return false;
-    if (root->type.type->kind == sema::TypeKind::SemiValue) {
-        const std::string& name = root->type.type->base()->name;
-        return name != "signaldi" && name != "signaldo";
-    }
+    if (root->type.type->kind == sema::TypeKind::SemiValue) return !isDigital(*root->type.type);
     return root->storage == Storage::SystemVariable ||
            (root->storage == Storage::Parameter && root->mode == ParamMode::In);
 }

@@ -77,16 +77,11 @@ void Analyzer::loadLibrary() {
             put(state_.predefined, id, atomic);
     }
     for (Module* module : state_.program.predefinedModules)
-        for (TypeSymbol* type : module->types)
-            types_.ensureType(*type);
-    const auto typeNamed = [&](const char* name) -> const Type* {
-        const TypeSymbol* symbol = asType(at(state_.predefined, state_.names.intern(name)));
-        return symbol ? symbol->type->base() : nullptr;
-    };
-    state_.program.pos = typeNamed("pos");
-    state_.program.orient = typeNamed("orient");
-    if (const TypeSymbol* symbol = asType(at(state_.predefined, state_.names.intern("intnum"))))
-        state_.intnum = symbol->type;
+        for (TypeSymbol* symbol : module->types) {
+            const Type* type = types_.ensureType(*symbol);
+            state_.program.known[static_cast<size_t>(type->known)] = type;
+        }
+    state_.program.known[static_cast<size_t>(KnownType::None)] = nullptr;
     for (Module* module : state_.program.predefinedModules)
         for (RoutineSymbol* routine : module->routines)
             types_.resolveSignature(*routine);

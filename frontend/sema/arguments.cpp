@@ -25,9 +25,9 @@ Arguments::Arguments(State& state, const Parts& parts)
 // The type an undeclared name gets as the argument for this parameter.
 const Type* Arguments::handleHint(const DataSymbol& param) const {
     const Type& type = *param.type.type;
-    const std::string& name = type.base()->name;
-    const bool configured = type.kind == TypeKind::SemiValue || (param.predefined && name == "mecunit") ||
-                            (name == "cameradev" && type.kind == TypeKind::NonValue);
+    const KnownType known = type.base()->known;
+    const bool configured = type.kind == TypeKind::SemiValue || known == KnownType::Camera ||
+                            (param.predefined && known == KnownType::MechanicalUnit);
     return configured && param.type.rank == 0 ? param.type.type : nullptr;
 }
 
@@ -342,7 +342,7 @@ const char* missingClass(ParamClass accepts, const DataType& found) {
     case ParamClass::Any: break;
     case ParamClass::Value: return unless(isValueType(type), "data of a value type");
     case ParamClass::ValueOrSignal: {
-        const bool unit = type.base()->name == "mecunit";
+        const bool unit = isKnown(type, KnownType::MechanicalUnit);
         return unless(isValueType(type) || (scalar && (signal || unit)),
                       "data of a value type, or a signal variable");
     }

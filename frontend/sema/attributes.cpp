@@ -86,6 +86,7 @@ void applyTypeAttributes(const SyntaxTree& tree, TypeSymbol& symbol) {
     const DeclarationComment comment = commentOf(tree, *symbol.decl);
     const TypeClass typeClass = classOf(comment);
     TypeKind& kind = symbol.type->kind;
+    symbol.type->known = valueOf(kKnownTypeWords, comment.get("known")).value_or(KnownType::None);
     if (typeClass == TypeClass::NonValue) {
         kind = TypeKind::NonValue;
         for (const char digit : comment.get("bytes"))
@@ -107,7 +108,6 @@ void applyDataAttributes(const SyntaxTree& tree, DataSymbol& symbol) {
 
 void applyRoutineAttributes(const SyntaxTree& tree, RoutineSymbol& symbol) {
     const DeclarationComment comment = commentOf(tree, *symbol.decl);
-    symbol.documentation = comment.text;
     for (const Attribute& attribute : comment.attributes)
         applyAttribute(symbol, attribute.key, attribute.value);
 }

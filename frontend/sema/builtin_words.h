@@ -44,6 +44,13 @@ enum class Meaning : uint8_t {
 #include "frontend/sema/builtin_words.def"
 };
 
+/// Predefined types that the compiler itself knows; from `known:` in the declaration.
+enum class KnownType : uint8_t {
+    None,
+#define KNOWN_TYPE(Name, word) Name,
+#include "frontend/sema/builtin_words.def"
+};
+
 /// Error numbers that constructs of the language raise; from `raisedby:` in the declaration (manual 1.12).
 enum class LanguageError : uint8_t {
     None,
@@ -99,6 +106,10 @@ inline constexpr BuiltinWord<Meaning> kMeaningWords[] = {
 #define MEANING(Name, word) {word, Meaning::Name},
 #include "frontend/sema/builtin_words.def"
 };
+inline constexpr BuiltinWord<KnownType> kKnownTypeWords[] = {
+#define KNOWN_TYPE(Name, word) {word, KnownType::Name},
+#include "frontend/sema/builtin_words.def"
+};
 inline constexpr BuiltinWord<LanguageError> kLanguageErrorWords[] = {
 #define LANGUAGE_ERROR(Name, word) {word, LanguageError::Name},
 #include "frontend/sema/builtin_words.def"
@@ -117,6 +128,9 @@ inline constexpr std::string_view kAttributeKeys[] = {
 };
 
 static_assert(std::size(kTraitWords) <= 32);
+
+/// Length of a table by KnownType.
+inline constexpr std::size_t kKnownTypes = std::size(kKnownTypeWords) + 1;
 
 /// The value of a word; none for a word that is not in the list.
 template <class Enum, std::size_t N>

@@ -7,6 +7,7 @@
 #include "frontend/sema/symbols.h"
 
 #include <algorithm>
+#include <array>
 
 namespace rapid::sema {
 
@@ -153,12 +154,13 @@ struct CheckedProgram {
     Store<DataSymbol> dataSymbols{arena}; ///< configured objects
 
     // Types that the language itself needs.
-    const Type *num = nullptr, *dnum = nullptr, *boolean = nullptr, *string = nullptr, *pos = nullptr,
-               *orient = nullptr, *errorType = nullptr;
+    const Type *num = nullptr, *dnum = nullptr, *boolean = nullptr, *string = nullptr, *errorType = nullptr;
+    std::array<const Type*, kKnownTypes> known{}; ///< by KnownType; null: the library does not declare it
 
     const ExprInfo& info(const Module& module, const syntax::Expr& expr) const {
         return (*module.exprs)[expr.id];
     }
+    const Type* typeOf(KnownType type) const { return known[static_cast<size_t>(type)]; }
     /// Some instruction calls a predefined routine with this trait.
     bool uses(Trait trait) const;
 };

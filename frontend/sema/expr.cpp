@@ -93,8 +93,7 @@ Typed Expressions::placeValue(const Expr& e) {
     switch (type.kind) {
     case TypeKind::SemiValue: {
         if (out.type.rank > 0) return {&out};
-        const std::string& name = type.base()->name;
-        const bool group = name == "signalgi" || name == "signalgo";
+        const bool group = isKnown(type, KnownType::GroupInput) || isKnown(type, KnownType::GroupOutput);
         return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
     }
     case TypeKind::Switch:

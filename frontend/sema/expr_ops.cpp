@@ -4,6 +4,7 @@
 #include "frontend/sema/fold.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"
+#include "frontend/sema/type_rules.h"
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/tree_walk.h"
 
@@ -29,8 +30,8 @@ Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* s
         folding_.foldUnary(e, slot);
         return t;
     }
-    if (e.op != UnaryOp::Not && scalar && program_.pos && operand.base() == program_.pos) {
-        const Typed t = result(e, program_.pos);
+    if (e.op != UnaryOp::Not && scalar && isKnown(*operand.base(), KnownType::Position)) {
+        const Typed t = result(e, operand.base());
         folding_.foldUnary(e, slot);
         return t;
     }
@@ -107,8 +108,8 @@ Typed Expressions::binaryChain(const BinaryExpr& top, const DataType* want) {
 // "p10 + [0,0,50]": a record that no operator takes gives the aggregate no type.
 bool Expressions::refusesAggregate(const BinaryExpr& e, const DataType& partner) {
     const Type* type = partner.type->base();
-    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record || type == program_.pos ||
-        type == program_.orient)
+    if (e.op >= BinaryOp::Lt || partner.rank > 0 || type->kind != TypeKind::Record ||
+        isKnown(*type, KnownType::Position) || isKnown(*type, KnownType::Orientation))
         return false;
     const bool left = isAggregate(*e.left);
     report(say::OperatorTypes, range(e.opToken),
@@ -210,7 +211,6 @@ void Expressions::checkIntegerOperands(const BinaryExpr& e) {
 
 // Strings, vectors and rotations.
 Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
-    const Type *pos = program_.pos, *orient = program_.orient;
     if (left.info->type.rank > 0 || right.info->type.rank > 0) return operatorError(e, left, right);
     // A group signal in a product with a vector counts as num; so does a literal already.
     const auto asNum = [&](const Expr& side, Typed t) {
@@ -222,7 +222,11 @@ Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right
         folding_.foldBinary(e);
         return t;
     };
-    const bool leftPos = pos && left.base() == pos, rightPos = pos && right.base() == pos;
+    const Type* pos = program_.typeOf(KnownType::Position);
+    const bool leftPos = isKnown(*left.base(), KnownType::Position);
+    const bool rightPos = isKnown(*right.base(), KnownType::Position);
+    const bool rotations =
+        isKnown(*left.base(), KnownType::Orientation) && isKnown(*right.base(), KnownType::Orientation);
     switch (e.op) {
     case BinaryOp::Add:
         if (left.isScalar(TypeKind::String) && right.isScalar(TypeKind::String))
@@ -236,7 +240,7 @@ Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right
         if (leftPos && rightPos) return folded(pos);
         if (leftPos && asNum(*e.right, right)) return folded(pos);
         if (rightPos && asNum(*e.left, left)) return folded(pos);
-        if (orient && left.base() == orient && right.base() == orient) return folded(orient);
+        if (rotations) return folded(program_.typeOf(KnownType::Orientation));
         break;
     case BinaryOp::Div:
         if (leftPos && asNum(*e.right, right)) return folded(pos);

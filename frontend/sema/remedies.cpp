@@ -22,10 +22,6 @@ bool readsAsNumber(std::string_view text) {
            text.find_first_of("0123456789") != std::string_view::npos;
 }
 
-bool isPredefined(const Type& type, std::string_view name) {
-    return (!type.base()->module || type.base()->module->predefined) && type.base()->name == name;
-}
-
 } // namespace
 
 Remedies::Remedies(State& state, const Parts& parts) : CheckerPart(state), scopes_(parts.scopes) {}
@@ -78,9 +74,9 @@ Remedy Remedies::numberRemedy(const Expr& e, const DataType& found, const Type& 
 
 // A record of which only a part is wanted, or a target of the other kind.
 Remedy Remedies::recordRemedy(const Expr& e, const DataType& found, const DataType& want) {
-    if (isPredefined(*found.type, "robtarget") && isPredefined(*want.type, "jointtarget"))
+    if (isKnown(*found.type, KnownType::Target) && isKnown(*want.type, KnownType::JointTarget))
         return {": CalcJointT gives the joint angles of a robtarget", ""};
-    if (isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
+    if (isKnown(*found.type, KnownType::JointTarget) && isKnown(*want.type, KnownType::Target))
         return {": CalcRobT gives the robtarget of joint angles", ""};
     const Type::Component* part = nullptr;
     for (const Type::Component& c : found.type->base()->components) {
@@ -141,9 +137,9 @@ Remedy Remedies::remedyFor(const RoutineSymbol& routine, const Expr& e, const Da
     const DataType& want = param.type;
     if (found.type && routine.predefined && found.rank == 0 && want.rank == 0) {
         const bool moves = routine.name.starts_with("Move");
-        if (moves && isPredefined(*found.type, "jointtarget") && isPredefined(*want.type, "robtarget"))
+        if (moves && isKnown(*found.type, KnownType::JointTarget) && isKnown(*want.type, KnownType::Target))
             return {": MoveAbsJ moves to a jointtarget", ""};
-        if (moves && isPredefined(*found.type, "robtarget") && isPredefined(*want.type, "jointtarget"))
+        if (moves && isKnown(*found.type, KnownType::Target) && isKnown(*want.type, KnownType::JointTarget))
             return {": MoveJ and MoveL move to a robtarget", ""};
         const Remedy sibling = signalRemedy(routine, found, want);
         if (!sibling.words.empty()) return sibling;
@@ -180,7 +176,7 @@ Remedy Remedies::signalRemedy(const RoutineSymbol& routine, const DataType& foun
 // A target cannot be displaced by an operator.
 std::string targetRemedy(BinaryOp op, const DataType& operand) {
     const bool moves = op == BinaryOp::Add || op == BinaryOp::Sub;
-    return moves && isPredefined(*operand.type, "robtarget")
+    return moves && isKnown(*operand.type, KnownType::Target)
                ? ": Offs and RelTool give a robtarget that is moved"
                : "";
 }

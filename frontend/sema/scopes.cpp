@@ -67,15 +67,15 @@ void Scopes::declareConfiguration() {
         if (type) configuredObject(names_.intern(signal.name), signal.name, type->type, false);
     }
     // Each task has an identity, and the robot of the first motion task is always there.
-    const auto declare = [&](const std::string& name, const char* typeName) {
-        const TypeSymbol* type = asType(at(state_.predefined, names_.intern(typeName)));
+    const auto declare = [&](const std::string& name, KnownType known) {
+        const Type* type = program_.typeOf(known);
         const NameId id = names_.intern(name);
         if (type && !at(state_.predefined, id) && !at(task_.configured, id))
-            configuredObject(id, name, type->type, false);
+            configuredObject(id, name, type, false);
     };
     for (const std::string& task : state_.taskNames)
-        declare(task + "Id", "taskid");
-    declare("ROB_1", "mecunit");
+        declare(task + "Id", KnownType::TaskIdentity);
+    declare("ROB_1", KnownType::MechanicalUnit);
 }
 
 // From now on the routine has data of this name and of the type that fits everything: one mistake, one diagnostic.

@@ -39,23 +39,30 @@ std::string_view kindOnwards(std::string_view name) {
     return name;
 }
 
-/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. Empty: the name has
+/// The type of a signal by the habit of naming them: diStart, DO_Clamp, gi1, PLC_do_Ready, sdoArcOn. None: the name has
 /// another form.
-std::string_view typeByName(std::string_view name) {
+KnownType typeByName(std::string_view name) {
     const std::string_view whole = name;
     name = kindOnwards(whole);
     const bool isEnd = name.size() == 2 && whole.size() > 3;
-    if (name.size() < 3 && !isEnd) return {};
+    if (name.size() < 3 && !isEnd) return KnownType::None;
     const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     const bool marked =
         isEnd || name[2] == '_' || isDigit(name[2]) || (isUpper(name[2]) && !isUpper(name[1]));
-    if (!marked) return {};
-    static constexpr std::string_view kTypes[] = {"signaldi", "signaldo", "signalgi",
-                                                  "signalgo", "signalai", "signalao"};
-    for (const std::string_view type : kTypes)
-        if (config::lowerLetter(name[0]) == type[6] && config::lowerLetter(name[1]) == type[7]) return type;
-    return {};
+    if (!marked) return KnownType::None;
+    struct Letters {
+        char kind, direction;
+        KnownType type;
+    };
+    static constexpr Letters kLetters[] = {
+        {'d', 'i', KnownType::DigitalInput}, {'d', 'o', KnownType::DigitalOutput},
+        {'g', 'i', KnownType::GroupInput},   {'g', 'o', KnownType::GroupOutput},
+        {'a', 'i', KnownType::AnalogInput},  {'a', 'o', KnownType::AnalogOutput}};
+    for (const Letters& letters : kLetters)
+        if (config::lowerLetter(name[0]) == letters.kind && config::lowerLetter(name[1]) == letters.direction)
+            return letters.type;
+    return KnownType::None;
 }
 
 /// soTouch: an output by the habit of some plants.
@@ -67,7 +74,7 @@ bool isOutput(std::string_view name) {
 /// The data types that a signal is compared with. Other names of num (errnum, stoppointdata) count other things than signals.
 bool isPlainNumber(const Type& type) {
     return type.kind == TypeKind::SemiValue ||
-           (type.isNumeric() && (!type.aliasOf || foldName(type.name) == "dionum"));
+           (type.isNumeric() && (!type.aliasOf || type.known == KnownType::SignalValue));
 }
 
 /// One letter more, less or another; other digits make another name.
@@ -89,14 +96,8 @@ SignalFinder::SignalFinder(State& state, const Parts& parts)
     : CheckerPart(state), data_(parts.data), scopes_(parts.scopes), suggestions_(parts.suggestions),
       types_(parts.types) {}
 
-const Type* SignalFinder::signalType(std::string_view name) {
-    const TypeSymbol* type = asType(at(state_.predefined, names_.intern(name)));
-    return type ? type->type : nullptr;
-}
-
 const Type* SignalFinder::signalTypeByName(const std::string& name) {
-    const std::string_view type = typeByName(name);
-    return type.empty() ? nullptr : signalType(type);
+    return program_.typeOf(typeByName(name));
 }
 
 const Type* SignalFinder::signalTypeByUse(NameId name) {
@@ -116,9 +117,9 @@ const Type* SignalFinder::signalTypeByComparison(const std::string& written, Nam
             return nullptr; // LOCAL there
     if (isMisspeltNumber(name)) return nullptr;
     const ComparedName& use = found->second;
-    if (use.fraction) return signalType("signalai");
-    if (use.most > 1 || use.least < 0 || use.unknown) return signalType("signalgi");
-    return signalType(isOutput(written) ? "signaldo" : "signaldi");
+    if (use.fraction) return program_.typeOf(KnownType::AnalogInput);
+    if (use.most > 1 || use.least < 0 || use.unknown) return program_.typeOf(KnownType::GroupInput);
+    return program_.typeOf(isOutput(written) ? KnownType::DigitalOutput : KnownType::DigitalInput);
 }
 
 bool SignalFinder::isMisspeltNumber(NameId name) {

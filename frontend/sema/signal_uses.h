@@ -17,7 +17,6 @@ class SignalFinder : CheckerPart {
     const Type* signalTypeByComparison(const std::string& written, NameId name);
 
   private:
-    const Type* signalType(std::string_view name);
     bool isMisspeltNumber(NameId name);
     void gatherSignalUses();
     void gatherSignalUses(const syntax::Node& node);

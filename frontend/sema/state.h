@@ -28,7 +28,6 @@ struct State {
     diag::Sink& sink; ///< for what belongs to no file; see `reports`
     Interner names;
     const Type* switchType = nullptr;
-    const Type* intnum = nullptr;
     std::vector<std::string> taskNames;
     std::vector<Symbol*> predefined;                  ///< by NameId
     std::vector<std::unique_ptr<ModuleScope>> scopes; ///< by Module::id

@@ -295,6 +295,18 @@ bool isWordForResult(std::string_view folded) {
     return folded == "result" || folded == "ret" || folded == "retval" || folded == "returnvalue";
 }
 
+/// The instruction that does what an assignment to a signal was meant to do.
+std::string waysToSet(KnownType signal) {
+    switch (signal) {
+    case KnownType::DigitalInput:
+    case KnownType::GroupInput:
+    case KnownType::AnalogInput: return "AliasIO to connect it, inputs are read-only";
+    case KnownType::AnalogOutput: return "SetAO";
+    case KnownType::GroupOutput: return "SetGO";
+    default: return "SetDO";
+    }
+}
+
 } // namespace
 
 // "Sum := a + b;" in function Sum, as other languages give back a value.
@@ -324,11 +336,7 @@ bool Statements::assignable(const Place& place, const Expr& target) {
     if (type.kind == TypeKind::Switch) {
         report(say::SwitchAsValue, range(target), {text(target)}); // no value to assign either
     } else if (type.kind == TypeKind::SemiValue) {
-        const std::string& name = type.base()->name;
-        std::string remedy = name == "signalao" ? "SetAO" : name == "signalgo" ? "SetGO" : "SetDO";
-        if (name == "signaldi" || name == "signalai" || name == "signalgi")
-            remedy = "AliasIO to connect it, inputs are read-only";
-        report(say::AssignSignal, range(target), {text(target), remedy});
+        report(say::AssignSignal, range(target), {text(target), waysToSet(type.base()->known)});
     } else if (root.storage == Storage::SystemVariable) {
         report(say::AssignReadOnly, range(target), {root.name});
     } else if (root.storage == Storage::LoopVariable) {

@@ -130,10 +130,11 @@ void FlowStatements::connectTarget(const Expr& target) {
     DataSymbol& root = *found.root;
     const DataType& type = info(target).type;
     const bool isUnknown = type.type->kind == TypeKind::Error; // not declared, which is reported
-    bool isIntnum = type.rank == 0 && (!state_.intnum || isUnknown);
+    const bool declared = program_.typeOf(KnownType::Interrupt) != nullptr;
+    bool isInterrupt = type.rank == 0 && (!declared || isUnknown);
     for (const Type* t = type.type; t && type.rank == 0; t = t->aliasOf)
-        isIntnum |= t == state_.intnum;
-    if (!isIntnum) {
+        isInterrupt |= t->known == KnownType::Interrupt;
+    if (!isInterrupt) {
         report(say::ConnectNotInterrupt, range(target), {typeName(type)});
         return;
     }

@@ -171,8 +171,7 @@ struct RoutineSymbol : Symbol {
     uint8_t textLength = 0;                      ///< bytes of the text a native returns at least
     const DataSymbol* textLengthParam = nullptr; ///< parameter that says how many
     std::string option;                          ///< RobotWare option it needs
-    std::string documentation;
-    std::vector<DataSymbol*> formerParams; ///< of an earlier check, to be used again
+    std::vector<DataSymbol*> formerParams;       ///< of an earlier check, to be used again
     void reset() {
         RoutineSymbol fresh;
         fresh.users = users;

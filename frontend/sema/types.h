@@ -2,6 +2,8 @@
 // Types of RAPID (manual 1.2.1). Type objects live in the CheckedProgram and are compared by pointer after resolving
 // aliases.
 
+#include "frontend/sema/builtin_words.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,8 +38,9 @@ struct Type {
         const Type* type = nullptr;
     };
     TypeKind kind = TypeKind::Error;
-    std::string name;               ///< as written in its declaration
-    const Module* module = nullptr; ///< that declares it; null: predefined
+    KnownType known = KnownType::None; ///< predefined types; an alias has its own, or none
+    std::string name;                  ///< as written in its declaration
+    const Module* module = nullptr;    ///< that declares it; null: predefined
     const Type* aliasOf =
         nullptr; ///< aliases: the type named in the ALIAS; kind and components are the base's
     std::vector<Component> components; ///< records

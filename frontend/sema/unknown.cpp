@@ -199,8 +199,9 @@ void UnknownNames::reportMayBeDeclared(TokenIndex token, const std::string& hint
 // An unknown name as data: a signal where one is expected or where it is used as one elsewhere, otherwise an error.
 Symbol* UnknownNames::reportUnknownData(TokenIndex token, NameId name, const Type* handle) {
     facts().open = true;
-    const bool camera = handle && handle->base()->name == "cameradev";
-    const bool object = camera || (handle && handle->base()->name == "mecunit");
+    const KnownType wanted = handle ? handle->base()->known : KnownType::None;
+    const bool camera = wanted == KnownType::Camera;
+    const bool object = camera || wanted == KnownType::MechanicalUnit;
     const Type* type = handle && handle->kind == TypeKind::SemiValue ? handle : nullptr;
     if (!type && !object && context_.routine) type = signals_.signalTypeByUse(name);
     const bool open = !type && !object && context_.routine;

@@ -6,12 +6,22 @@ namespace rapid::syntax {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n";
+// One pass each: thousands of lines are read at every start.
+bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
 
 std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(kSpace);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
+    while (!text.empty() && isSpace(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && isSpace(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::string_view firstWord(std::string_view text) {
+    return text.substr(0,
+                       static_cast<size_t>(std::find_if(text.begin(), text.end(), isSpace) - text.begin()));
 }
 
 /// "effects:": lower-case letters and a colon.
@@ -20,20 +30,32 @@ bool isKey(std::string_view word) {
            std::all_of(word.begin(), word.end() - 1, [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
+void addToValue(std::string_view words, DeclarationComment& out) {
+    if (words.empty()) return;
+    if (out.attributes.empty()) {
+        if (out.stray.empty()) out.stray = firstWord(words);
+        return;
+    }
+    std::string& value = out.attributes.back().value;
+    if (!value.empty()) value += ' ';
+    value += words;
+}
+
 void readAttributes(std::string_view line, DeclarationComment& out) {
+    std::string_view words; // of the present value
     while (!(line = trimmed(line)).empty()) {
-        const std::string_view word = line.substr(0, line.find_first_of(kSpace));
+        const std::string_view word = firstWord(line);
         line.remove_prefix(word.size());
         if (isKey(word)) {
+            addToValue(words, out);
+            words = {};
             out.attributes.push_back({word.substr(0, word.size() - 1), {}});
-        } else if (out.attributes.empty()) {
-            if (out.stray.empty()) out.stray = word;
         } else {
-            std::string& value = out.attributes.back().value;
-            if (!value.empty()) value += ' ';
-            value += word;
+            const char* begin = words.empty() ? word.data() : words.data();
+            words = {begin, static_cast<size_t>(word.data() + word.size() - begin)};
         }
     }
+    addToValue(words, out);
 }
 
 } // namespace
@@ -56,6 +78,8 @@ DeclarationComment readDeclarationComment(std::string_view before) {
         before = before.substr(0, end == std::string_view::npos ? 0 : end);
     }
     DeclarationComment out;
+    constexpr size_t kUsual = 8;
+    out.attributes.reserve(kUsual);
     for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
         const std::string_view rest = trimmed(line->substr(2));
         if ((*line)[1] == '@') {

@@ -10,7 +10,7 @@ namespace rapid::syntax {
 
 struct Attribute {
     std::string_view key;
-    std::string value; ///< lines joined by one space
+    std::string value; ///< as written; lines are joined by one space
 };
 
 struct DeclarationComment {

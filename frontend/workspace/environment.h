@@ -33,8 +33,9 @@ class Environment {
     Environment& operator=(const Environment&) = delete;
     virtual ~Environment() = default;
 
-    /// The declarations of everything predefined. Good as long as the environment.
-    virtual std::vector<sema::LibraryText> library() const = 0;
+    /// The declarations of everything predefined, with the same lines whether `documented` or without the text of the
+    /// documentation. Good as long as the environment.
+    virtual std::vector<sema::LibraryText> library(bool documented) const = 0;
     /// Names of the predefined routines that are declared and not implemented. Good as long as the environment.
     virtual std::vector<std::string_view> declaredOnly() const = 0;
     /// Why a robot model cannot be used, for people; empty when it is known.

@@ -49,6 +49,7 @@ void Program::load() {
     inputs.paths = {root_};
     inputs.warnings = warnings_;
     inputs.lint = true;
+    inputs.documented = true;
     inputs.onlyDiagnostics = true; // the controller's opinion of signals is wanted
     inputs.texts = &texts_;
     loaded_ = loadInputs(inputs, environment_);

@@ -20,6 +20,7 @@ constexpr OpInfo kOps[] = {
      hasFlag(#flags, 'R'),                                                                                   \
      Family::family == Family::End,                                                                          \
      hasFlag(#flags, 'M'),                                                                                   \
+     hasFlag(#flags, 'W'),                                                                                   \
      hasFlag(#flags, 'Y')},
 #include "ir/core/instructions.def"
 };

@@ -46,6 +46,7 @@ struct OpInfo {
     bool mayRaise = false;
     bool terminator = false;
     bool touchesMemory = false; ///< memory or other state
+    bool atStatement = false;   ///< the runtime looks at the statement that the instruction belongs to
     bool showsType =
         false; ///< Inst::type names the type accessed or, for rule T, the result: the text has to show it
 };

@@ -13,7 +13,7 @@ bool RoutineLowering::isVectorOp(const Expr& outer) const {
     const Expr& expr = unparen(outer);
     if (expr.kind != NodeKind::Binary && expr.kind != NodeKind::Unary) return false;
     const sema::Type* type = baseType(expr);
-    return type == program_.program().pos->base() || type == program_.program().orient->base();
+    return type->known == sema::KnownType::Position || type->known == sema::KnownType::Orientation;
 }
 
 std::vector<ir::ValueId> RoutineLowering::lowerComponents(const Expr& outer) {

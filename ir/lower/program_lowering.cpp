@@ -70,7 +70,8 @@ ProgramLowering::ProgramLowering(const sema::CheckedProgram& program, const Opti
       reachesRoutineData_(program.uses(sema::Trait::RoutineData)) {
     for (const sema::Module* lib : program.predefinedModules)
         for (const DataSymbol* data : lib->data)
-            if (data->dataKind == syntax::DataKind::Const && data->type.type->name == "errnum") {
+            if (data->dataKind == syntax::DataKind::Const &&
+                data->type.type->known == sema::KnownType::ErrorNumber) {
                 const auto number = static_cast<int32_t>(data->value().number);
                 if (data->languageError != LanguageError::None) errorNumbers_[data->languageError] = number;
                 if (data->meaning == sema::Meaning::AllErrors) allErrors_ = number;

@@ -8,6 +8,8 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <cstring>
+
 namespace rt {
 namespace {
 
@@ -91,13 +93,27 @@ std::string unknownCommand(const std::string& extra, const CLI::App& app, const 
                        didYouMean(extra, names));
 }
 
+/// The library's own words where ours are clearer: a flag with a value, an option without one.
+std::string reworded(const CLI::ParseError& error) {
+    const std::string words = error.what();
+    constexpr std::string_view kConversion = "Could not convert: ", kMissing = " required ";
+    if (error.get_name() == "ConversionError" && words.starts_with(kConversion))
+        return words.substr(kConversion.size(), words.find(" = ") - kConversion.size()) + " takes no value";
+    const size_t missing = words.find(kMissing), colon = words.find(": ");
+    if (error.get_name() == "ArgumentMismatch" && missing != std::string::npos && words.ends_with(" missing"))
+        return fmt::format("{} needs a value: {}", words.substr(0, colon),
+                           words.substr(missing + kMissing.size(),
+                                        words.size() - missing - kMissing.size() - std::strlen(" missing")));
+    return words;
+}
+
 std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
     const std::string extra = firstExtra(app, command);
     const bool option = extra.size() > 1 && extra[0] == '-';
     const std::string commands = commandsOf(command);
     if (!commands.empty() && !option) return unknownCommand(extra, command, commands);
     if (option) return unknownOption(extra, app, command);
-    return extra.empty() ? error.what() : fmt::format("unexpected '{}'", extra);
+    return extra.empty() ? reworded(error) : fmt::format("unexpected '{}'", extra);
 }
 
 /// Reports what parsing ended with. `name`: of the executable. Returns the exit status.
@@ -168,7 +184,7 @@ Option Command::addOptional(const std::string& name, const std::string& otherwis
     option->each([name, values, otherwise, take = std::move(take)](const std::string& value) {
         const bool isAlone = value == "true"; // the library's word for it
         if (const std::string problem = take(isAlone ? otherwise : value); !problem.empty())
-            throw CLI::ValidationError(name, problem);
+            throw CLI::ValidationError(problem); // the library names the option itself
     });
     return Option(option);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/abi/whole_division.h"
+#include "runtime/interpreter/conversions.h"
 #include "runtime/interpreter/words.h"
 
 namespace rt {
@@ -233,8 +234,6 @@ class Activation {
         return at + 3;
     }
 
-    const uint32_t* convertAt(const uint32_t* at);
-
     TaskCore* task_;
     SteppingFrame* frame_;
     Frame* caller_;
@@ -246,59 +245,6 @@ class Activation {
     Status status_ = kOk, unwinding_ = kOk;
     uint8_t marks_ = 0; ///< StatementMark, of the statement that was noted last
 };
-
-const uint32_t* Activation::convertAt(const uint32_t* at) {
-    using S = Slot;
-    using T = WordType;
-    const auto single = [](double number, T type) {
-        S made;
-        made.bits = 0;
-        if (type == T::F32)
-            made.single = static_cast<float>(number);
-        else
-            made.twofold = number;
-        return made;
-    };
-    const auto integer = [](int64_t number) {
-        S made;
-        made.integer = number;
-        return made;
-    };
-    switch (opOf(at[0])) {
-    case WordOp::ZExt:
-        return convert(
-            at, [&](S a, T from, T to) { return integer(canonical(to, withoutSign(from, a.integer))); });
-    case WordOp::Trunc: return convert(at, [&](S a, T, T to) { return integer(canonical(to, a.bits)); });
-    case WordOp::SIntToFloat: // one rounding: not by way of a double
-        return convert(at, [&](S a, T, T to) {
-            S made = single(0, to);
-            if (to == T::F32)
-                made.single = static_cast<float>(a.integer);
-            else
-                made.twofold = static_cast<double>(a.integer);
-            return made;
-        });
-    case WordOp::UIntToFloat:
-        return convert(at, [&](S a, T from, T to) {
-            S made = single(0, to);
-            const uint64_t natural = withoutSign(from, a.integer);
-            if (to == T::F32)
-                made.single = static_cast<float>(natural);
-            else
-                made.twofold = static_cast<double>(natural);
-            return made;
-        });
-    case WordOp::FloatToSInt:
-    case WordOp::FloatToIndex: // out of range: any value
-        return convert(at, [&](S a, T from, T to) { return integer(toSigned(numberIn(from, a), to)); });
-    case WordOp::FloatToUInt:
-        return convert(at, [&](S a, T from, T to) { return integer(toUnsigned(numberIn(from, a), to)); });
-    case WordOp::FWiden:
-    case WordOp::FNarrow:
-        return convert(at, [&](S a, T from, T to) { return single(numberIn(from, a), to); });
-    default: return at; // execute() sends no other
-    }
-}
 
 // Stays one function: `alloca` gives memory until it returns, which is why run() calls nothing else.
 Status Activation::run() {
@@ -456,15 +402,15 @@ Status Activation::run() {
             slot(at[1]) = slot(at[2]).bits != 0 ? slot(at[3]) : slot(at[4]);
             at += 5;
             break;
-        case WordOp::ZExt:
-        case WordOp::Trunc:
-        case WordOp::SIntToFloat:
-        case WordOp::UIntToFloat:
+        case WordOp::ZExt: at = convert(at, zeroExtended); break;
+        case WordOp::Trunc: at = convert(at, truncated); break;
+        case WordOp::SIntToFloat: at = convert(at, signedToReal); break;
+        case WordOp::UIntToFloat: at = convert(at, unsignedToReal); break;
         case WordOp::FloatToSInt:
-        case WordOp::FloatToUInt:
-        case WordOp::FloatToIndex:
+        case WordOp::FloatToIndex: at = convert(at, realToSigned); break; // out of range: any value
+        case WordOp::FloatToUInt: at = convert(at, realToUnsigned); break;
         case WordOp::FWiden:
-        case WordOp::FNarrow: at = convertAt(at); break;
+        case WordOp::FNarrow: at = convert(at, realToReal); break;
         case WordOp::Statement:
             frame_->statement = static_cast<int32_t>(at[1]);
             marks_ = static_cast<uint8_t>(countOf(word));

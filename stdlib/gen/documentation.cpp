@@ -39,6 +39,7 @@ std::string problemOf(const rapid::syntax::Attribute& attribute) {
     if (key == "flow") return problemOf(key, value, sema::kFlowWords);
     if (key == "role") return problemOf(key, value, sema::kRoleWords);
     if (key == "meaning") return problemOf(key, value, sema::kMeaningWords);
+    if (key == "known") return problemOf(key, value, sema::kKnownTypeWords);
     if (key == "raisedby") return problemOf(key, value, sema::kLanguageErrorWords);
     if (key == "class") return problemOf(key, value, sema::kTypeClassWords);
     if (key == "confidence" && value != "high" && value != "medium" && value != "low")

@@ -234,24 +234,50 @@ std::string emitErrorTable(const Model& model) {
     return out + "    };\n    return table;\n}\n\n} // namespace rt\n";
 }
 
+namespace {
+
+/// A constant of bytes: string literals have a length limit in the standard.
+std::string byteArray(const std::string& name, std::string_view text) {
+    std::string out = fmt::format("const unsigned char {}[] = {{", name);
+    for (size_t k = 0; k < text.size(); ++k)
+        out += fmt::format("{}{},", k % 32 == 0 ? "\n    " : "", static_cast<unsigned char>(text[k]));
+    return out + "\n    0};\n";
+}
+
+/// The same lines; those of the documentation keep their mark only.
+std::string withoutDocumentation(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        const bool documents =
+            line.substr(std::min(line.find_first_not_of(' '), line.size())).starts_with("!!");
+        out += documents ? "!!" : line;
+        if (end < text.size()) out += '\n';
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+} // namespace
+
 std::string emitSources(const Model& model) {
     std::string out(kHeader);
     out += "\n#include \"stdlib/stdlib_text.h\"\n\nnamespace rapid::stdlib {\n\nnamespace {\n";
+    std::vector<std::string> lean;
     for (size_t i = 0; i < model.sources.size(); ++i) {
-        // As bytes: string literals have a length limit in the standard.
-        out += fmt::format("const unsigned char kText{}[] = {{", i);
-        const std::string& text = model.sources[i].text;
-        for (size_t k = 0; k < text.size(); ++k)
-            out += fmt::format("{}{},", k % 32 == 0 ? "\n    " : "", static_cast<unsigned char>(text[k]));
-        out += "\n    0};\n";
+        lean.push_back(withoutDocumentation(model.sources[i].text));
+        out += byteArray(fmt::format("kText{}", i), model.sources[i].text);
+        out += byteArray(fmt::format("kDeclarations{}", i), lean[i]);
     }
     out += "std::string_view view(const unsigned char* bytes, size_t size) {\n"
            "    return {reinterpret_cast<const char*>(bytes), size};\n}\n} // namespace\n\n"
            "std::span<const StdlibSource> sources() {\n    static const StdlibSource all[] = {\n";
     for (size_t i = 0; i < model.sources.size(); ++i)
-        out += fmt::format("        {{{}, view(kText{}, {})}},\n", quotedText(model.sources[i].name), i,
-                           model.sources[i].text.size());
-    if (model.sources.empty()) out += "        {\"\", {}}\n";
+        out +=
+            fmt::format("        {{{0}, view(kText{1}, {2}), view(kDeclarations{1}, {3})}},\n",
+                        quotedText(model.sources[i].name), i, model.sources[i].text.size(), lean[i].size());
+    if (model.sources.empty()) out += "        {\"\", {}, {}}\n";
     return out + fmt::format("    }};\n    return std::span<const StdlibSource>(all, {});\n}}\n\n"
                              "}} // namespace rapid::stdlib\n",
                              model.sources.size());

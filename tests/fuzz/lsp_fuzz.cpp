@@ -22,12 +22,12 @@ constexpr const char* kDocument = "untitled:fuzz";
 /// A part of the library, so that a conversation stays short.
 class SmallEnvironment final : public rapid::testing::PlainEnvironment {
   public:
-    std::vector<sema::LibraryText> library() const override {
+    std::vector<sema::LibraryText> library(bool documented) const override {
         std::vector<sema::LibraryText> texts;
         for (const stdlib::StdlibSource& source : stdlib::sources())
             for (const char* name : {"decl/various", "decl/interrupts", "decl/io_signals", "data/"})
                 if (std::string_view(source.name).starts_with(name))
-                    texts.push_back({source.name, source.text});
+                    texts.push_back({source.name, documented ? source.text : source.declarations});
         return texts;
     }
 };

@@ -66,7 +66,7 @@ std::string show(const diag::Sink& sink) {
 
 ProgramRunner::ProgramRunner() {
     for (const stdlib::StdlibSource& source : stdlib::sources())
-        texts_.push_back({source.name, source.text});
+        texts_.push_back({source.name, source.declarations});
     options_.library = texts_;
     options_.requireMain = true;
     options_.configurationKnown = true;

@@ -8,10 +8,10 @@ namespace rapid::testing {
 
 class PlainEnvironment : public workspace::Environment {
   public:
-    std::vector<sema::LibraryText> library() const override {
+    std::vector<sema::LibraryText> library(bool documented) const override {
         std::vector<sema::LibraryText> texts;
         for (const stdlib::StdlibSource& source : stdlib::sources())
-            texts.push_back({source.name, source.text});
+            texts.push_back({source.name, documented ? source.text : source.declarations});
         return texts;
     }
     std::vector<std::string_view> declaredOnly() const override { return {}; }

@@ -22,7 +22,7 @@ namespace {
 const format::NameTable& predefinedNames(const State& state) {
     static const format::NameTable names = [&state] {
         format::NameTable table;
-        for (const rapid::sema::LibraryText& text : state.environment.library()) {
+        for (const rapid::sema::LibraryText& text : state.environment.library(false)) {
             rapid::diag::Sink ignored;
             rapid::syntax::ParseOptions options;
             options.declarations = true;

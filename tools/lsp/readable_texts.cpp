@@ -65,7 +65,7 @@ std::string readableFolder() {
 }
 
 std::string declarationPath(const rapid::workspace::Environment& environment, std::string_view name) {
-    for (const rapid::sema::LibraryText& text : environment.library())
+    for (const rapid::sema::LibraryText& text : environment.library(true))
         if (text.name == name) return write(std::string(name), text.text);
     return {};
 }

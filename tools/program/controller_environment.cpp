@@ -19,10 +19,10 @@ using rapid::workspace::ConveyorNames;
 
 class ControllerEnvironment final : public rapid::workspace::Environment {
   public:
-    std::vector<rapid::sema::LibraryText> library() const override {
+    std::vector<rapid::sema::LibraryText> library(bool documented) const override {
         std::vector<rapid::sema::LibraryText> texts;
         for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
-            texts.push_back({source.name, source.text});
+            texts.push_back({source.name, documented ? source.text : source.declarations});
         return texts;
     }
 

@@ -36,7 +36,7 @@ std::string fingerprint() {
 std::vector<sema::LibraryText> libraryTexts() {
     std::vector<sema::LibraryText> texts;
     for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
-        texts.push_back({source.name, source.text});
+        texts.push_back({source.name, source.declarations});
     return texts;
 }
 

@@ -177,7 +177,9 @@ bool select(const std::vector<Row>& rows, const std::vector<std::string>& names,
 
 /// Without names everything; names are described, patterns that mean several are listed.
 int show(const std::string& format, const std::vector<std::string>& names) {
-    const auto compilation = checkInputs({});
+    Inputs inputs;
+    inputs.documented = !names.empty();
+    const auto compilation = checkInputs(inputs);
     const std::vector<Row> rows = collect(*compilation->program);
     std::vector<Row> selected;
     if (!select(rows, names, selected)) return static_cast<int>(rt::ExitStatus::BadUsage);

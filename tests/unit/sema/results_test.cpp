@@ -317,7 +317,7 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     const Module& m = *p.tasks[0]->modules[0];
     const RoutineSymbol& main = routine(p, "main");
     const ExprInfo& assigned = p.info(m, *syntax::as<syntax::AssignStmt>(bodyStmt(main, 0)).value);
-    CHECK(assigned.type.type == p.pos);
+    CHECK(assigned.type.type == p.typeOf(KnownType::Position));
     CHECK(assigned.constant == nullptr);
     const ExprInfo& list =
         p.info(m, *p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 1)).args[0].value);
@@ -328,7 +328,7 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     CHECK(list.constant->members()[3].number == 4);
 }
 
-TEST_CASE("the library gives effects, documentation and alternatives", "[sema]") {
+TEST_CASE("the library gives effects, traits and alternatives", "[sema]") {
     const auto c = checkTexts({"MODULE m\nENDMODULE\n"});
     const RoutineSymbol *moveL = nullptr, *present = nullptr, *setGo = nullptr, *waitUntil = nullptr;
     const DataSymbol* errorNumber = nullptr;
@@ -346,7 +346,7 @@ TEST_CASE("the library gives effects, documentation and alternatives", "[sema]")
     REQUIRE(moveL);
     CHECK(moveL->effects == Effects::Motion);
     CHECK(moveL->native);
-    CHECK_FALSE(moveL->documentation.empty());
+    CHECK(moveL->traits.has(Trait::Linear));
     REQUIRE(present);
     CHECK(present->role == Role::Present);
     CHECK(present->params[0]->mode == syntax::ParamMode::Ref);

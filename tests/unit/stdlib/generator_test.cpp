@@ -193,6 +193,7 @@ TEST_CASE("an attribute with a word that is not in builtin_words.def is refused"
     CHECK(mentions({problem("role: presents")}, "role: does not know 'presents'; it takes present, dim"));
     CHECK(
         mentions({problem("meaning: errors")}, "meaning: does not know 'errors'; it takes error, interrupt"));
+    CHECK(mentions({problem("known: zones")}, "known: does not know 'zones'; it takes digital input"));
     CHECK(mentions({problem("traits: names named")}, "traits: does not know 'named'; it takes stoppoint"));
     CHECK(mentions({problem("confidence: very")}, "confidence: does not know 'very'"));
     CHECK(mentions({problem("where: A is vlaue")}, "where: does not know 'vlaue'; it takes value"));
