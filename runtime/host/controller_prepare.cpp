@@ -215,6 +215,7 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
         if (options_.planner == "optimal") how.planner = motion::Planner::Optimal;
         motions_.push_back(
             std::make_unique<MotionDriver>(scheduler_, group.model, how, group.robot, motions_.size()));
+        motions_.back()->setTick(options_.tick);
         motions_.back()->addListener([this, &motion = *motions_.back()](ArmChange news) {
             if (news == ArmChange::CornerLost)
                 log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});

@@ -94,7 +94,7 @@ void MotionDriver::advance(Time time) {
                 state.motors = motion::motorSide(system_, state, nextSample_);
             for (TraceSink* trace : traces_)
                 trace->sample(nextSample_, unitName_, state);
-            nextSample_ += TraceSink::kPeriod;
+            nextSample_ += tick_;
         }
         system_.advanceTo(step);
         const std::vector<motion::MotionEvent> events = system_.takeEvents();

@@ -204,6 +204,9 @@ class MotionDriver final : public SteppedArm {
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }
+    /// ns between samples of the traces and between two looks of a MotionTicker; before the arm moves.
+    void setTick(Time tick) { tick_ = tick; }
+    Time tick() const { return tick_; }
     /// SpeedLimAxis, SpeedLimCheckPoint: hold while the system input LimitSpeed is set.
     void setSpeedLimits(const motion::SpeedLimits& most);
     void limitSpeed(bool on);
@@ -280,6 +283,7 @@ class MotionDriver final : public SteppedArm {
     WaitQueue changed_;
     std::vector<TraceSink*> traces_;
     Time nextSample_ = 0;
+    Time tick_ = 4 * kMillisecond; // TraceSink::kPeriod
     std::shared_ptr<SynchronisedGroup> synchronised_;
     bool isSuspended_ = false;
     StopFlags stopMove_;

@@ -101,6 +101,27 @@ void addNetwork(const Command& command, net::NetworkOptions& options) {
         .typeName("[=ADDRESS[=OTHER]]");
 }
 
+/// A whole number of microseconds, so that times in files are exact.
+void addTick(const Command& command, RunOptions& options) {
+    const auto take = [&options](const std::string& text) -> std::string {
+        constexpr double kLeast = 0.1, kMost = 100; // ms
+        double number = 0;
+        const bool isNumber = parseNumber(text, number) && number >= kLeast && number <= kMost;
+        const double microseconds = std::round(1000 * number);
+        if (!isNumber || std::abs(1000 * number - microseconds) > 1e-6)
+            return fmt::format("'{}' is not a time from {} to {} ms in whole microseconds", text, kLeast,
+                               kMost);
+        options.tick = static_cast<Time>(microseconds) * (kMillisecond / 1000);
+        return {};
+    };
+    command
+        .addChecked(
+            "--tick", take,
+            "period of motion in ms: samples of trace and report, outputs of TriggSpeed; default 4, real "
+            "controllers 4.032")
+        .typeName("MS");
+}
+
 void addRobots(const Command& command, RunOptions& options) {
     command
         .add("--robot", options.robots,
@@ -122,6 +143,7 @@ void addRobots(const Command& command, RunOptions& options) {
              "how movements are timed: measured (as real controllers; default) or optimal (shortest time "
              "within all limits, also of jerk)")
         .oneOf({"measured", "optimal"});
+    addTick(command, options);
 }
 
 } // namespace
@@ -149,7 +171,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
              "events from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")
         .typeName("FILE.csv");
-    command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms")
+    command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms (--tick)")
         .typeName("FILE.csv");
     command.addFlag(
         "--motors", options.outputs.motors,

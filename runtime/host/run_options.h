@@ -30,6 +30,7 @@ struct RunOptions {
     std::vector<std::string> robots;
     std::vector<std::string> conveyors; ///< NAME=KEY:VALUE,...
     std::string planner = "measured";   ///< how movements are timed: measured or optimal
+    Time tick = 4 * kMillisecond;       ///< ns: period of motion, of samples of the trace for one
     std::string home;                   ///< "" = an empty folder that is removed at the end
     std::vector<std::string> volumes;   ///< NAME=DIR: further disks
     std::vector<std::string> devices;   ///< NAME=FILE[,FILE]: serial channels and printers

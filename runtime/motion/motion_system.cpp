@@ -53,6 +53,27 @@ const robot::Kinematics& MotionSystem::kinematics() const {
     return impl_->kinematics;
 }
 
+/// The first external axis that the target of the move leads out of its range.
+std::optional<MotionError> MotionSystem::Impl::externalOutOfRange(const MoveCommand& command) const {
+    const bool isAbsolute = command.kind == MoveKind::AbsJoint;
+    const ExternalAxes& wanted = isAbsolute ? command.joints.extax : command.target.extax;
+    const ExternalAxes axes = targetAxes(path().endTarget().extax, wanted);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const ExternalAxisModel& axis = options.external[i];
+        if (!isConnected(axes[i]) || (axes[i] >= axis.lower - 1e-9 && axes[i] <= axis.upper + 1e-9)) continue;
+        MotionError error;
+        error.kind = MotionErrorKind::JointOutOfRange;
+        error.joint = robot::kFirstExternalAxis + static_cast<int>(i);
+        error.value = axes[i];
+        error.pathFraction = 1;
+        error.position = isAbsolute
+                             ? command.frames.fromFlange(kinematics.forward(command.joints.robax), axes).pos
+                             : command.target.pose.pos;
+        return error;
+    }
+    return {};
+}
+
 /// The move with its path from where the last one ends.
 Expected<Trajectory::Ordered, MotionError> MotionSystem::Impl::prepared(const MoveCommand& command) const {
     MotionError error;
@@ -64,18 +85,12 @@ Expected<Trajectory::Ordered, MotionError> MotionSystem::Impl::prepared(const Mo
     MoveCommand onBase = command;
     onBase.frames = based(command.frames);
     auto made = MotionPath::make(kinematics, path().endTarget(), onBase);
-    if (!made) return Unexpected{made.error()};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kExternalCount); ++i) {
-        const ExternalAxisModel& axis = options.external[i];
-        const double value = made->end().extax[i];
-        if (!isConnected(value) || (value >= axis.lower - 1e-9 && value <= axis.upper + 1e-9)) continue;
-        error.kind = MotionErrorKind::JointOutOfRange;
-        error.joint = robot::kFirstExternalAxis + static_cast<int>(i);
-        error.value = value;
-        error.pathFraction = 1;
-        error.position = made->tcpAt(1).pos;
-        return Unexpected{error};
+    const bool isOnTheWay =
+        !made && made.error().pathFraction < 1 && made.error().kind != MotionErrorKind::BadArgument;
+    if (made || isOnTheWay) { // the target is judged before the way to it, with its external axes
+        if (const auto outside = externalOutOfRange(onBase)) return Unexpected{*outside};
     }
+    if (!made) return Unexpected{made.error()};
     return Trajectory::Ordered{
         std::make_shared<const MotionPath>(std::move(*made)), std::move(onBase), {}, {}};
 }

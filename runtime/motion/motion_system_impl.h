@@ -109,6 +109,7 @@ struct MotionSystem::Impl {
     void noteMotion() { isRestAnnounced = isRestAnnounced && !isMoving(); }
 
     // Orders
+    std::optional<MotionError> externalOutOfRange(const MoveCommand& command) const;
     Expected<Trajectory::Ordered, MotionError> prepared(const MoveCommand& command) const;
     MoveId registerMove(const MoveCommand& command, const Trajectory::Appended& appended);
     bool isResting() const { return level.queue.empty() && !isMoving() && !isHalted && detour == nullptr; }

@@ -91,6 +91,8 @@ std::optional<MotionError> checkArguments(const MoveCommand& command) {
     return {};
 }
 
+} // namespace
+
 ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target) {
     ExternalAxes result = start;
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -98,8 +100,6 @@ ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target) {
     }
     return result;
 }
-
-} // namespace
 
 Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kinematics,
                                                    const JointTarget& start, const MoveCommand& command) {
@@ -177,6 +177,7 @@ std::optional<MotionError> MotionPath::resolveCurve(const MoveCommand& command) 
         nodes_ = {{0, start_.robax, 0}, {1, start_.robax, 0}};
         return checkArrival(command);
     }
+    if (auto error = checkTarget(command)) return error;
     if (auto error = marchWithMode(command)) return error;
     end_.robax = nodes_.back().joints;
     return checkArrival(command);
@@ -195,6 +196,17 @@ void MotionPath::resolveArmAngle(const MoveCommand& command) {
         end = kinematics_.armAngle(*joints);
     }
     armTravel_ = std::remainder(end - armStart_, 360.0);
+}
+
+/// Before the way to it: a target that no posture reaches is what has to be corrected, not the place on the way at which the arm
+/// would have to give up. Where another orientation than the programmed one may come of the movement, only the way shows it.
+std::optional<MotionError> MotionPath::checkTarget(const MoveCommand& command) const {
+    if (isByWrist_ || command.singularity == SingularityMode::LockAxis4) return {};
+    const auto joints =
+        solveTarget(kinematics_, flangeFor(curve_.at(1), 1), command.target, false, start_.robax);
+    if (joints) return {};
+    const robot::IkError& problem = joints.error();
+    return errorAt(targetError(problem, {}).kind, 1, problem.joint, problem.angleDeg);
 }
 
 /// As the orientation is programmed if that can be, else by the mode of SingArea. A tool that the robot does not hold has

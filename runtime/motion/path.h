@@ -68,6 +68,9 @@ std::vector<MoveCommand> splitAtCirclePoint(const MoveCommand& command, const Ro
 /// `here` does not lie on it.
 MoveCommand restOfCircle(const MoveCommand& command, const Pose& start, const Pose& here);
 
+/// The external axes at the end of a movement from `start`: those of the target, where they are connected.
+ExternalAxes targetAxes(const ExternalAxes& start, const ExternalAxes& target);
+
 class MotionPath {
   public:
     MotionPath() = default; ///< at rest with all axes at 0
@@ -115,6 +118,7 @@ class MotionPath {
     Problem march();
     Problem marchWithMode(const MoveCommand& command);
     Problem checkNode(const PathNode& node) const;
+    Problem checkTarget(const MoveCommand& command) const;
     Problem checkArrival(const MoveCommand& command) const;
     bool solve(double s, const Joints& seed, Joints& out, std::optional<Pose>* tcp = nullptr) const;
     bool solveByWrist(double s, const Joints& seed, Joints& out) const;

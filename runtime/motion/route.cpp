@@ -189,6 +189,26 @@ void Route::addBends(const Corner& corner, double from, double to, std::vector<d
     addBends(corner, middle, to, places);
 }
 
+/// Places inside a part of a curve of the axes between which these turn at similar rates: where the TCP nearly stops to turn
+/// back they turn most for a mm, on a way that is shorter than usual stretches.
+void Route::addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const {
+    constexpr double kSimilar = 1.5;
+    constexpr double kLeastPart = 2e-3;
+    const double middle = 0.5 * (from + to);
+    double shortest = corner.length(), longest = 0; // quarters, since halves may be each other's mirror image
+    double before = corner.lengths.distanceAt(from);
+    for (int k = 1; k <= 4; ++k) {
+        const double end = corner.lengths.distanceAt(from + 0.25 * k * (to - from));
+        shortest = std::min(shortest, end - before);
+        longest = std::max(longest, end - before);
+        before = end;
+    }
+    if (longest < kSimilar * shortest || to - from < kLeastPart) return;
+    addTurns(corner, from, middle, places);
+    places.push_back(corner.begin + corner.lengths.distanceAt(middle));
+    addTurns(corner, middle, to, places);
+}
+
 /// Borders of pieces on which all quantities are smooth, and the nodes of the paths, from a place to the end.
 std::vector<double> Route::bordersFrom(double from) const {
     std::vector<double> borders{from};
@@ -215,14 +235,17 @@ std::vector<double> Route::bordersFrom(double from) const {
         add(c.end());
         for (int k = 1; k < kStretchesInZone; ++k)
             add(c.begin + c.length() * k / kStretchesInZone);
-        if (isSmooth_) {
-            std::vector<double> bends;
-            for (int k = 0; k < kStretchesInZone; ++k)
-                addBends(c, static_cast<double>(k) / kStretchesInZone,
-                         static_cast<double>(k + 1) / kStretchesInZone, bends);
-            for (const double place : bends)
-                add(place);
+        std::vector<double> bends;
+        for (int k = 0; k < kStretchesInZone && (isSmooth_ || c.kind == CornerKind::Joint); ++k) {
+            const double begin = static_cast<double>(k) / kStretchesInZone,
+                         end = static_cast<double>(k + 1) / kStretchesInZone;
+            if (isSmooth_)
+                addBends(c, begin, end, bends);
+            else
+                addTurns(c, begin, end, bends);
         }
+        for (const double place : bends)
+            add(place);
         const auto addZone = [&](double begin, double end) {
             for (int k = 0; k <= kStretchesInZone; ++k)
                 add(begin + (end - begin) * k / kStretchesInZone);

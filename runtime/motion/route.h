@@ -125,6 +125,7 @@ class Route {
     void dropLastLeg();
     bool layStretches(double from);
     void addBends(const Corner& corner, double from, double to, std::vector<double>& places) const;
+    void addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const;
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, const Joints& seed) const;
     bool isShaped(double place) const;

@@ -105,8 +105,9 @@ bool Run::append(Leg leg, bool isOpen, double now) {
         return true;
     }
     const std::size_t from = isFirst ? 0 : std::min(route_.stretchAt(*changed), route_.keptStretches());
-    limitStretches(from);
-    planBackward(from);
+    const std::size_t first = limitStretches(from);
+    planBackward(first);
+    if (first < from) changed_ = std::min(changed_, first);
     if (!isBraking_) planForward(now);
     if (isFirst && !isOpen) meetDuration();
     return true;
@@ -154,7 +155,8 @@ bool Run::appendOptimal(double changed, double now) {
     return false;
 }
 
-void Run::limitStretches(std::size_t from) {
+/// Limits of the stretches from this one on; the first stretch whose limits may have changed.
+std::size_t Run::limitStretches(std::size_t from) {
     const auto& stretches = route_.stretches();
     limits_.resize(from);
     for (std::size_t k = from; k < stretches.size(); ++k) {
@@ -162,6 +164,40 @@ void Run::limitStretches(std::size_t from) {
         limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
     }
+    return widenDips(from);
+}
+
+/// Averaging in time would pass over a short place where an axis turns fast: around it, as far as the windows reach, the speed
+/// exceeds what the axis allows there by a limited share only. The first stretch that is changed, at most `from`.
+std::size_t Run::widenDips(std::size_t from) {
+    constexpr double kExcess = 1.25;
+    const auto& stretches = route_.stretches();
+    if (from >= limits_.size()) return from;
+    const double halfWindow = 0.5 * (settings_.longWindow + settings_.shortWindow);
+    double fastest = 0;
+    for (std::size_t i = from; i < limits_.size(); ++i)
+        fastest = std::max(fastest, limits_[i].speed);
+    std::size_t first = from;
+    const auto lower = [&](std::size_t i, double speed) {
+        if (limits_[i].speed <= speed) return;
+        limits_[i].speed = speed;
+        first = std::min(first, i);
+    };
+    const auto widen = [&](std::size_t dip) {
+        const double speed = kExcess * limits_[dip].axisSpeed;
+        const double reach = std::min(speed, fastest) * halfWindow;
+        for (std::size_t i = dip; i > 0 && stretches[i - 1].end > stretches[dip].begin - reach; --i)
+            lower(i - 1, speed);
+        for (std::size_t i = dip + 1; i < limits_.size() && stretches[i].begin < stretches[dip].end + reach;
+             ++i)
+            lower(i, speed);
+    };
+    std::size_t dip = from;
+    while (dip > 0 && stretches[dip - 1].end > stretches[from].begin - fastest * halfWindow)
+        --dip;
+    for (; dip < limits_.size(); ++dip)
+        widen(dip);
+    return first;
 }
 
 double Run::speedSquare(std::size_t stretch) const {

@@ -72,7 +72,8 @@ class Run {
     double fixedPlace(double now) const;
     bool appendOptimal(double changed, double now);
     bool canAppend(double now) const;
-    void limitStretches(std::size_t from);
+    std::size_t limitStretches(std::size_t from);
+    std::size_t widenDips(std::size_t from);
     template <class Step> void brakeFrom(const CourseState& state, Step step) const;
     double speedSquare(std::size_t stretch) const;
     void planBackward(std::size_t from);

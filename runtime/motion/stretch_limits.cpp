@@ -24,7 +24,7 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     l.speed = std::min({atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate),
                         atMost(most.armAngleSpeed, s.armRate), most.pathSpeed});
     if (s.zoneLength > 0) l.speed = std::min(l.speed, s.zoneLength / kShortestZone);
-    l.bendSquare = kUnlimited;
+    l.axisSpeed = l.bendSquare = kUnlimited;
     const auto add = [&](double first, double second, double acceleration) {
         if (std::abs(first) < 1e-12 && std::abs(second) < 1e-12) return;
         l.bendSquare = std::min(l.bendSquare, atMost(acceleration, second));
@@ -35,13 +35,14 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     for (std::size_t i = 0; i < s.first.size(); ++i) {
         // The rate at the ends of the stretch may be higher than in its middle.
         const double rate = std::abs(s.first[i]) + 0.5 * l.width * std::abs(s.second[i]);
-        l.speed = std::min(l.speed, atMost(most.jointSpeed[i], rate));
+        l.axisSpeed = std::min(l.axisSpeed, atMost(most.jointSpeed[i], rate));
         add(s.first[i], s.second[i], most.accelerationShare[i] * accelerations[i]);
     }
     for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
         l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));
         add(s.externalFirst[i], s.externalSecond[i], most.externalAcceleration[i]);
     }
+    l.speed = std::min(l.speed, l.axisSpeed);
     if (most.worldAcceleration < kUnlimited) {
         // Along and across the path together: each takes its share.
         constexpr double kShare = 0.7071;

@@ -50,7 +50,8 @@ bool TraceWriter::open(const std::string& path, std::string& error) {
 }
 
 void TraceWriter::sample(Time time, std::string_view unit, const motion::MotionState& state) {
-    std::string line = fmt::format("{},{}", formatSeconds(time, 3), unit);
+    const int digits = time % kMillisecond == 0 ? 3 : 6; // exact with any --tick
+    std::string line = fmt::format("{},{}", formatSeconds(time, digits), unit);
     for (const double axis : state.numberedAxes()) {
         if (motion::isConnected(axis))
             appendFixed(line, axis, 6);

@@ -35,7 +35,7 @@ class ErrorsWriter {
     OutputFile file_;
 };
 
-/// --trace: a row each 4 ms: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
+/// --trace: a row each 4 ms, or --tick: `time_s,unit,j1..j6,e1..e6,x,y,z,q1,q2,q3,q4,speed_mm_s,move`; degrees, mm, the active TCP in
 /// world; axes that are not connected read 9E+09; `move` counts move instructions. With motors, `m1..m6` follow.
 class TraceWriter final : public TraceSink {
   public:

@@ -22,7 +22,7 @@ struct MoveOrder {
 /// Takes the samples of the robot's motion, in order of time.
 class TraceSink {
   public:
-    static constexpr Time kPeriod = 4 * kMillisecond;
+    static constexpr Time kPeriod = 4 * kMillisecond; ///< between samples, unless --tick gives another time
     virtual ~TraceSink() = default;
     virtual void sample(Time time, std::string_view unit, const motion::MotionState& state) = 0;
     /// The samples shall have the positions of the motors.

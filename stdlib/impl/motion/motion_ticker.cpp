@@ -1,7 +1,5 @@
 #include "stdlib/impl/motion/motion_ticker.h"
 
-#include "runtime/sim/trace_sink.h"
-
 #include <utility>
 
 namespace rt::lib {
@@ -17,7 +15,7 @@ void MotionTicker::start(Controller& controller, MotionDriver& motion, std::func
 void MotionTicker::look() {
     if (!look_() || tick_ != 0 || !motion_->system().isMoving()) return;
     Scheduler& clock = controller_->scheduler();
-    const Time next = (clock.now() / TraceSink::kPeriod + 1) * TraceSink::kPeriod;
+    const Time next = (clock.now() / motion_->tick() + 1) * motion_->tick();
     tick_ = clock.at(next, [this] {
         tick_ = 0;
         look();

@@ -1,5 +1,5 @@
 #pragma once
-// MotionTicker: looks at the arm after every motion event, and in the period of the trace while it moves.
+// MotionTicker: looks at the arm after every motion event, and in the period of motion (MotionDriver::tick) while it moves.
 
 #include "runtime/host/controller.h"
 

@@ -139,6 +139,22 @@ TEST_CASE("v_ori limits a reorientation", "[motion][limits]") {
     checkBinds(measured(system, command).turn, 40, 0.98);
 }
 
+TEST_CASE("an external axis out of range is judged before the way", "[motion][limits]") {
+    // docs/motion.md, Path. The way through the foot of the robot is impossible, too.
+    MotionSystem system = smallRobot();
+    JointTarget start = system.currentJoints();
+    start.robax = {0, 0, 0, 0, 30, 0};
+    REQUIRE(system.placeAt(start));
+    MoveCommand command = fast(system, MoveKind::Linear);
+    command.target = system.toRobTarget({{160, 0, 0, 0, 30, 0}, command.joints.extax}, command.frames);
+    REQUIRE_FALSE(system.enqueue(command).hasValue());
+    command.target.extax[0] = 2000;
+    const auto refused = system.enqueue(command);
+    REQUIRE_FALSE(refused.hasValue());
+    CHECK(refused.error().kind == MotionErrorKind::JointOutOfRange);
+    CHECK(refused.error().joint == robot::kFirstExternalAxis);
+}
+
 TEST_CASE("v_leax and v_reax limit external axes", "[motion][limits]") {
     MotionSystem system = smallRobot();
     MoveCommand command = fast(system, MoveKind::AbsJoint);

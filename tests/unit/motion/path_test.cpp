@@ -338,6 +338,30 @@ TEST_CASE("straight through the wrist singularity axis 4 does not turn", "[motio
     CHECK(path->end().robax[4] == Approx(-30).margin(1e-6));
 }
 
+TEST_CASE("a target out of reach is judged before the way to it", "[motion][path]") {
+    // docs/motion.md, Path: the error names what has to be corrected. The straight ways lead through the foot of the robot.
+    const auto straightTo = [](const Pose& target) {
+        MoveCommand command;
+        command.kind = MoveKind::Linear;
+        command.confL = false;
+        command.target.pose = target;
+        return MotionPath::make(irb120(), kReady, command);
+    };
+    const Pose ready = irb120().forward(kReady.robax);
+    SECTION("no posture reaches the target") {
+        const auto path = straightTo({{-900, 50, 400}, ready.rot});
+        REQUIRE_FALSE(path.hasValue());
+        CHECK(path.error().kind == MotionErrorKind::Unreachable);
+        CHECK(path.error().pathFraction == 1);
+        CHECK(path.error().position.x == Approx(-900));
+    }
+    SECTION("a posture reaches it: the way is what is impossible") {
+        const auto path = straightTo(irb120().forward({160, 0, 0, 0, 30, 0}));
+        REQUIRE_FALSE(path.hasValue());
+        CHECK(path.error().pathFraction < 1);
+    }
+}
+
 TEST_CASE("a path that misses a singularity by a hair is refused with the place", "[motion][path]") {
     const JointTarget start{{0, 0, 0, 0, 10, 0}, kNoExternalAxes};
     MoveCommand command;
