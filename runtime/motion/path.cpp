@@ -199,7 +199,7 @@ void MotionPath::resolveArmAngle(const MoveCommand& command) {
 }
 
 /// Before the way to it: a target that no posture reaches is what has to be corrected, not the place on the way at which the arm
-/// would have to give up. Where another orientation than the programmed one may come of the movement, only the way shows it.
+/// would have to give up. Only the way shows whether the movement ends with another orientation than the programmed one.
 std::optional<MotionError> MotionPath::checkTarget(const MoveCommand& command) const {
     if (isByWrist_ || command.singularity == SingularityMode::LockAxis4) return {};
     const auto joints =

@@ -88,7 +88,7 @@ void TasksMaker::writeFunction() {
     end("ENDFUNC");
 }
 
-/// An error that is not handled here goes on to the caller; main handles all.
+/// The caller gets an error that is not handled here; main handles all.
 void TasksMaker::errorHandler(size_t number) {
     line("ERROR");
     ++indent_;
