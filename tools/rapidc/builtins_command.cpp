@@ -18,12 +18,13 @@ namespace rapidc {
 
 namespace {
 
+/// Good as long as the program it is taken from.
 struct Row {
-    std::string name, kind, chapter, status;
+    std::string_view name, kind, chapter, status;
 };
 
 /// `manual:` in the `!@` lines above a declaration of the library.
-std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
+std::string_view chapterOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
     if (!decl) return "-";
     const std::string_view gap = rapid::syntax::gapBefore(*module.tree, decl->first);
     const size_t at = gap.rfind("manual:");
@@ -31,7 +32,7 @@ std::string chapterOf(const rapid::sema::Module& module, const rapid::syntax::No
     std::string_view rest = gap.substr(at + 7);
     rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
     const size_t stop = std::min({rest.find("   "), rest.find('\n'), rest.size()});
-    return std::string(rest.substr(0, stop));
+    return rest.substr(0, stop);
 }
 
 std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
@@ -48,8 +49,10 @@ std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
                             "implemented"});
         }
     }
-    std::sort(rows.begin(), rows.end(),
-              [](const Row& a, const Row& b) { return std::tie(a.kind, a.name) < std::tie(b.kind, b.name); });
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+        const int order = a.kind.compare(b.kind);
+        return order != 0 ? order < 0 : a.name < b.name;
+    });
     return rows;
 }
 
@@ -61,11 +64,21 @@ void printTsv(const std::vector<Row>& rows) {
 
 void printRows(const std::vector<Row>& rows) {
     size_t done = 0;
+    std::string text;
+    const auto column = [&text](std::string_view word, size_t width) {
+        text += word;
+        text.append(word.size() < width ? width - word.size() : 0, ' ');
+        text += ' ';
+    };
     for (const Row& row : rows) {
         done += row.status == "implemented" ? 1u : 0u;
-        fmt::print("{:<28} {:<12} {:<8} {}\n", row.name, row.kind, row.chapter, row.status);
+        column(row.name, 28);
+        column(row.kind, 12);
+        column(row.chapter, 8);
+        text += row.status;
+        text += '\n';
     }
-    fmt::print("\n{} of {} implemented\n", done, rows.size());
+    fmt::print("{}\n{} of {} implemented\n", text, done, rows.size());
 }
 
 bool isPattern(const std::string& name) {
@@ -130,7 +143,7 @@ const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, st
 /// Its kind, its state and its declaration.
 void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
     fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
-               row.chapter == "-" ? "" : ", manual " + row.chapter);
+               row.chapter == "-" ? std::string() : fmt::format(", manual {}", row.chapter));
     for (const rapid::sema::Module* module : program.predefinedModules) {
         const rapid::syntax::Node* decl = findDeclaration(*module, rapid::sema::foldName(row.name));
         if (!decl) continue;
@@ -144,7 +157,7 @@ void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
 std::string nearest(const std::vector<Row>& rows, const std::string& name) {
     std::vector<std::string> names;
     for (const Row& row : rows)
-        names.push_back(row.name);
+        names.emplace_back(row.name);
     std::vector<std::string> near = rapid::config::nearestNames(name, names);
     if (near.empty()) return {};
     near.resize(std::min<size_t>(near.size(), 3));
