@@ -193,10 +193,11 @@ std::size_t Run::widenDips(std::size_t from) {
             lower(i, speed);
     };
     std::size_t dip = from;
+    double fastestNear = fastest; // of all that a dip can reach
     while (dip > 0 && stretches[dip - 1].end > stretches[from].begin - fastest * halfWindow)
-        --dip;
+        fastestNear = std::max(fastestNear, limits_[--dip].speed);
     for (; dip < limits_.size(); ++dip)
-        widen(dip);
+        if (kExcess * limits_[dip].axisSpeed < fastestNear) widen(dip);
     return first;
 }
 

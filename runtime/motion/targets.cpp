@@ -97,8 +97,10 @@ void poseToFloats(const Pose& pose, float* trans, float* rot) {
 }
 
 std::string MotionError::message() const {
-    const std::string place = fmt::format("at {:.1f} % of the path, [{:.2f}, {:.2f}, {:.2f}]",
-                                          100 * pathFraction, position.x, position.y, position.z);
+    const std::string share =
+        pathFraction < 1 ? fmt::format("at {:.1f} % of the path", 100 * pathFraction) : "at the target";
+    const std::string place =
+        fmt::format("{}, [{:.2f}, {:.2f}, {:.2f}]", share, position.x, position.y, position.z);
     switch (kind) {
     case MotionErrorKind::BadArgument:
         return fmt::format("{} ({:.6g}) cannot be used for a move", what, value);
