@@ -175,9 +175,12 @@ class Web {
         return dropUnless([&](const llvm::Instruction& node) { return most_[&node] <= exact(node); });
     }
 
-    unsigned bitsOf(const Value* node) const {
-        return static_cast<unsigned>(std::ilogb(std::max(1.0, most_.lookup(node)))) + 1;
+    /// Of whole numbers up to this one.
+    static unsigned bitsFor(double most) {
+        return static_cast<unsigned>(std::ilogb(std::max(1.0, most))) + 1;
     }
+
+    unsigned bitsOf(const Value* node) const { return bitsFor(most_.lookup(node)); }
 
     /// Bytes stay bytes: of a wider integer, the upper bits would have to be cleared in each round of a loop.
     llvm::IntegerType* integerFor(const llvm::Instruction& node) {
@@ -186,8 +189,7 @@ class Web {
         const bool chooses = llvm::isa<llvm::PHINode>(node) || llvm::isa<llvm::SelectInst>(node);
         if (!chooses)
             for (const unsigned i : operandsOf(node))
-                bits =
-                    std::max(bits, static_cast<unsigned>(std::ilogb(std::max(1.0, largestNow(node, i)))) + 1);
+                bits = std::max(bits, bitsFor(largestNow(node, i)));
         const unsigned width = chooses && bits <= kByte ? kByte : bits < kWord ? kWord : 2 * kWord;
         return llvm::IntegerType::get(function_.getContext(), width);
     }
@@ -216,8 +218,9 @@ class Web {
                                : isWholeRemainder(node)                      ? llvm::Instruction::URem
                                                                              : llvm::Instruction::UDiv;
         auto* made = llvm::BinaryOperator::Create(operation, none, none, "", node.getIterator());
-        if (!isWholeDivision(node)) made->setHasNoUnsignedWrap();
-        if (!isWholeDivision(node)) made->setHasNoSignedWrap();
+        if (isWholeDivision(node)) return made;
+        made->setHasNoUnsignedWrap();
+        made->setHasNoSignedWrap();
         return made;
     }
 

@@ -43,9 +43,8 @@ Predefined::Predefined(const sema::CheckedProgram& program) {
         byName[symbol->nameId] = symbol;
     };
     for (const Module* module : program.predefinedModules) {
-        for (const TypeSymbol* type : module->types) {
+        for (const TypeSymbol* type : module->types)
             add(type);
-        }
         for (const DataSymbol* data : module->data)
             add(data);
         for (const RoutineSymbol* routine : module->routines)

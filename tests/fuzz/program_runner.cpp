@@ -194,7 +194,10 @@ Tally& tally() {
     return counted;
 }
 
-bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise) {
+namespace {
+
+/// Checks the program, counts it, and shows it where RAPIDC_FUZZ_SHOW asks for that.
+bool accepts(ProgramRunner& runner, const TaskTexts& tasks) {
     ++tally().all;
     const bool accepted = runner.check(tasks);
     if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
@@ -203,8 +206,14 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
                 std::fprintf(stderr, "%s", text.c_str());
         std::fprintf(stderr, "%s", runner.errors().c_str());
     }
-    if (!accepted) return false;
-    ++tally().accepted;
+    tally().accepted += accepted ? 1u : 0u;
+    return accepted;
+}
+
+} // namespace
+
+bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise) {
+    if (!accepts(runner, tasks)) return false;
     const RunResult release = runner.run({.stepping = false, .optimise = optimise});
     const RunResult stepping = runner.run({.stepping = true, .optimise = false});
     constexpr int kMaxTime = 4;
@@ -232,8 +241,8 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
 
 namespace {
 
-/// Warnings of handled errors are written when it is known that the handler has not called SkipWarn: at a time that hangs on
-/// the profile. RunResult::errors has these errors with their own times.
+/// The warning of a handled error is written when it is known that the handler has not called SkipWarn; that time differs between
+/// the profiles. RunResult::errors has these errors with their own times.
 std::string withoutHandled(const std::string& events) {
     std::string kept;
     std::istringstream lines(events);
@@ -246,16 +255,7 @@ std::string withoutHandled(const std::string& events) {
 } // namespace
 
 bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
-    ++tally().all;
-    const bool accepted = runner.check(tasks);
-    if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
-        for (const auto& task : tasks)
-            for (const std::string& text : task)
-                std::fprintf(stderr, "%s", text.c_str());
-        std::fprintf(stderr, "%s", runner.errors().c_str());
-    }
-    if (!accepted) return false;
-    ++tally().accepted;
+    if (!accepts(runner, tasks)) return false;
     const RunResult plain = runner.run({.optimise = false, .records = true});
     tally().ended += plain.status == 0 ? 1u : 0u;
     const auto compare = [&](const char* name, const RunResult& other) {

@@ -4,6 +4,7 @@
 #include "runtime/host/cbor.h"
 #include "stdlib/native_table.h"
 #include "stdlib/stdlib_text.h"
+#include "tools/program/controller_environment.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,13 +32,6 @@ std::string fingerprint() {
                     sizeof(rt::GlobalDesc), sizeof(rt::RoutineEntry), sizeof(rt::TypeDesc),
                     sizeof(rt::TaskCore)));
     return fmt::format("{:016x}", hash);
-}
-
-std::vector<sema::LibraryText> libraryTexts() {
-    std::vector<sema::LibraryText> texts;
-    for (const rapid::stdlib::StdlibSource& source : rapid::stdlib::sources())
-        texts.push_back({source.name, source.declarations});
-    return texts;
 }
 
 Json jsonOf(const ProgramSources::Task& task) {
@@ -122,7 +116,7 @@ std::unique_ptr<ProgramSources> unpack(std::string_view bytes, std::string& prob
         return nullptr;
     }
     auto sources = std::make_unique<ProgramSources>();
-    sources->library = libraryTexts();
+    sources->library = controllerEnvironment().library(false);
     sources->options.library = sources->library;
     sources->stepping = json.at("stepping").get<bool>();
     sources->optimise = json.at("optimise").get<bool>();
