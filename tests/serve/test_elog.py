@@ -148,6 +148,14 @@ class EventLog(ServeCase):
         self.assertIn({"type": "string", "value": "T_ROB1"},
                       [{"type": each["type"], "value": each["value"]} for each in message["argv"]])
 
+    def test_arguments_of_the_program(self):
+        """Published clients find header and lines of ErrWrite by their places, argument 1 to 5; a line that is left out is empty."""
+        client = self.client(1, form="json")
+        found = lambda: [state for state in client.get("/rw/elog/8?lang=en").json()["_embedded"]["_state"]  # noqa: E731
+                         if state["title"] == "First warning"]
+        message = self.eventually(found)[0]
+        self.assertEqual([each["value"] for each in message["argv"]], ["First warning", "The text of it", "more of it", "", ""])
+
     def test_arguments_as_xhtml(self):
         """A published client takes each li of the list for a message, with its number at the end of the title, and the arguments from
         the spans arg1, arg2 ..."""
