@@ -255,8 +255,8 @@ void addMotionSystem(std::vector<CfgInstance>& instances) {
 /// The settings that files of controllers have without a change by the user.
 void addSettings(std::vector<CfgInstance>& instances, const Controller& controller) {
     const std::array settings = {
-        std::pair("SimulateMenu", 1),           std::pair("NoOfRetry", controller.settings().noOfRetry),
-        std::pair("ModalPayLoadMode", 1),       std::pair("StationaryPayLoadMode", 0),
+        std::pair("SimulateMenu", 1),          std::pair("NoOfRetry", controller.settings().noOfRetry),
+        std::pair("ModalPayLoadMode", 1),      std::pair("StationaryPayLoadMode", 0),
         std::pair("PayloadsInWristCoords", 0), std::pair("CollisionErrorHandling", 0)};
     for (const auto& [name, value] : settings) {
         CfgInstance& instance = add(instances);

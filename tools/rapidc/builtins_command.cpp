@@ -43,11 +43,12 @@ std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
                         entry.chapter, entry.isImplemented() ? "implemented" : "declared only"});
     for (const rapid::sema::Module* module : program.predefinedModules) {
         for (const auto* type : module->types)
-            rows.push_back({type->name, "datatype", attributeOf(*module, type->decl, "manual:"), "implemented"});
+            rows.push_back(
+                {type->name, "datatype", attributeOf(*module, type->decl, "manual:"), "implemented"});
         for (const auto* data : module->data) {
             const bool constant = data->dataKind == rapid::syntax::DataKind::Const;
-            rows.push_back({data->name, constant ? "constant" : "systemdata", attributeOf(*module, data->decl, "manual:"),
-                            "implemented"});
+            rows.push_back({data->name, constant ? "constant" : "systemdata",
+                            attributeOf(*module, data->decl, "manual:"), "implemented"});
         }
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
