@@ -32,7 +32,19 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     path.stopMove = stopMove_;
     path.levelHold = levelHold_;
     path.isSuspended = isSuspended_;
+    path.corner = earlier_.corner ? earlier_.corner : cornerLeft();
     return path;
+}
+
+/// The curve that the arm is on. Robots that move together continue straight to the next point.
+std::optional<MotionDriver::EarlierCorner> MotionDriver::cornerLeft() {
+    if (synchronised_ != nullptr) return {};
+    const auto place = system().cornerPlace();
+    if (!place) return {};
+    for (const UnfinishedMove& move : ordered_)
+        if (move.id == place->move)
+            return EarlierCorner{move.command, system_.isDone(move.id), place->from, place->covered};
+    return {};
 }
 
 void MotionDriver::orderEarlier(const std::vector<motion::MoveCommand>& moves) {
@@ -40,7 +52,8 @@ void MotionDriver::orderEarlier(const std::vector<motion::MoveCommand>& moves) {
         continueEarlier(command);
         command.tag = ++instructions_;
         const motion::Pose start = startOf(command);
-        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start, nullptr);
+        if (const auto id = system_.enqueue(command))
+            enqueued(*id, command, start, system_.plannedEnd(), nullptr);
     }
 }
 
@@ -62,8 +75,49 @@ void MotionDriver::continuePath(const EarlierPath& path) {
         storeEarlier(level);
     earlier_ = path;
     earlier_.awaited.reset();
-    orderEarlier(path.moves);
+    orderEarlier(orderEarlierCorner(path));
     holdEarlier(path);
+}
+
+/// Orders the moves that meet in the corner which the arm is on. The moves that are left to be ordered: none while the second
+/// one of the corner is that of the instruction which the program executes again.
+std::vector<motion::MoveCommand> MotionDriver::orderEarlierCorner(const EarlierPath& path) {
+    if (!path.corner) return path.moves;
+    const std::size_t second = path.corner->isPassed ? 0 : 1;
+    if (path.moves.size() <= second) {
+        if (path.awaited) return {};
+        earlier_.corner.reset();
+        return path.moves;
+    }
+    motion::MoveCommand command = path.moves[second];
+    Beginning beginning;
+    const auto id = orderInCorner(command, beginning);
+    if (!id) return path.moves;
+    noteOrdered(nullptr, command, *id, beginning);
+    earlier_.begun.reset();
+    return {path.moves.begin() + static_cast<std::ptrdiff_t>(second) + 1, path.moves.end()};
+}
+
+/// Orders the move before the corner and this one, which begins on its curve; nothing when there is none left to be taken over.
+std::optional<motion::MoveId> MotionDriver::orderInCorner(motion::MoveCommand& command,
+                                                          Beginning& beginning) {
+    const auto corner = std::exchange(earlier_.corner, {});
+    if (!corner) return {};
+    motion::MoveCommand before = corner->before;
+    before.tag = instructions_ + 1;
+    command.tag = instructions_ + 2;
+    const auto ordered = system_.enqueueInCorner(corner->from, corner->covered, before, command);
+    if (!ordered) { // it is elsewhere: straight to the points that are left
+        if (!corner->isPassed) orderEarlier({corner->before});
+        command.tag = instructions_ + 1;
+        beginning = {startOf(command), system_.plannedEnd()};
+        return {};
+    }
+    ++instructions_;
+    const motion::Pose start = system_.toRobTarget(corner->from, before.frames).pose;
+    enqueued(ordered->before, before, start, ordered->point, nullptr);
+    beginning = {system_.toRobTarget(ordered->point, command.frames).pose, ordered->point};
+    return ordered->after;
 }
 
 void MotionDriver::holdEarlier(const EarlierPath& path) {
@@ -83,7 +137,7 @@ void MotionDriver::continueEarlier(motion::MoveCommand& command) {
         command.tag = tag;
     }
     const auto begun = std::exchange(earlier_.begun, {});
-    if (begun && command.kind == motion::MoveKind::Circular)
+    if (begun && !earlier_.corner && command.kind == motion::MoveKind::Circular)
         command = motion::restOfCircle(command, *begun, system_.currentTarget(command.frames).pose);
 }
 

@@ -332,6 +332,11 @@ void SavedState::restorePaths(StateImage& image) {
         findCarriers(controller_.motions(), path.moves);
         for (MotionDriver::EarlierLevel& level : path.stored)
             findCarriers(controller_.motions(), level.moves);
+        if (path.corner) {
+            std::vector<motion::MoveCommand> before{path.corner->before};
+            findCarriers(controller_.motions(), before);
+            path.corner->before = before.front();
+        }
         if (!path.awaited) continue;
         std::vector<motion::MoveCommand> awaited{*path.awaited};
         findCarriers(controller_.motions(), awaited);

@@ -10,6 +10,7 @@
 #include "runtime/motion/move_limits.h"
 #include "runtime/motion/path_modifier.h"
 #include "runtime/motion/planner.h"
+#include "runtime/motion/stop_kind.h"
 #include "runtime/motion/targets.h"
 #include "runtime/robot/kinematics.h"
 #include "runtime/robot/robot_model.h"
@@ -100,7 +101,7 @@ class MotionSystem {
 
     /// Throws away all moves not finished (ClearPath, program pointer moved). The arm must stand still: a
     /// moving arm is stopped on its path first and the rest is dropped when it is at rest.
-    void clear();
+    void clear(StopKind kind = StopKind::Normal);
     /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
     /// otherwise.
     bool placeAt(const JointTarget& joints);
@@ -109,6 +110,24 @@ class MotionSystem {
     bool leadTo(const JointTarget& joints, const JointTarget& speed, TimeNs period);
     /// leadTo() moves it.
     bool isLed() const;
+
+    // ---- a corner that an earlier process left (--state) ----
+    /// The curve that the arm is on: it passes the point of this move.
+    struct CornerPlace {
+        MoveId move = 0;
+        JointTarget from;   ///< where the move begins as programmed
+        double covered = 0; ///< mm of path since the zone began
+    };
+    /// Nothing outside zones, beside the path, and when the arm is led or moves together with others.
+    std::optional<CornerPlace> cornerPlace() const;
+    struct OrderedInCorner {
+        MoveId before = 0, after = 0;
+        JointTarget point; ///< the axes at the programmed point
+    };
+    /// Orders the two moves that meet in the corner: the arm, idle and at rest, is on its curve there and continues from it.
+    /// Nothing, and nothing has changed, when the two have no such curve or it does not lead through where the arm is.
+    std::optional<OrderedInCorner> enqueueInCorner(const JointTarget& from, double covered,
+                                                   const MoveCommand& before, const MoveCommand& after);
 
     // ---- away from the planned path ----
     /// The modifier acts from now on, after those that were added before.
@@ -140,8 +159,8 @@ class MotionSystem {
 
     // ---- stopping on the path ----
     /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped
-    /// already.
-    void stop();
+    /// already, but a quick stop shortens the braking of a normal one.
+    void stop(StopKind kind = StopKind::Normal);
     /// Motors off (emergency stop, power failure): each axis brakes for itself, which takes the arm off its path. start()
     /// brings it back, axis by axis, to where stop() would have left it, and continues from there.
     void halt();

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
+constexpr double kSettling = 0.044;  // s from the release of the program at a stop point to standstill, as measured
 
 /// When the course, which comes to rest, has at most this share of its speed at `from`.
 double slowTime(const Course& course, double from, double share) {
@@ -232,18 +233,28 @@ void Trajectory::closeLast() {
 
 // ---- Time ----
 
-/// When a run begins if nothing holds the arm; nothing while the run before does not come to its end.
+/// When a run begins if nothing holds the arm; nothing while the run before does not come to its end. A run that is known when the
+/// stop point before it is reached overlaps with the end of the motion there; one that is ordered when the arm stands begins after
+/// the delay. In between the time from the order to the beginning changes evenly (docs/motion.md).
 std::optional<double> Trajectory::startAfter(std::size_t run) const {
-    const double ordered = entry(run).ordered;
-    if (run == first_) return std::max(ordered + options_.startDelay, earliest_);
+    const Entry& e = entry(run);
+    const double delay = e.pause > 0 ? 0 : options_.startDelay;
+    if (run == first_) return std::max(e.ordered + delay, earliest_);
     const auto reached = stopTime(run - 1);
     if (!reached) return {};
-    if (ordered > *reached + kSameMoment) return ordered + options_.startDelay;
-    if (entry(run).pause > 0 || entry(run - 1).pause > 0 || entry(run - 1).stop.standTime > 0) return reached;
-    const Course& before = runAt(run - 1).course();
-    const double overlapping =
-        std::max(courseTime(run - 1, before.endPlace() - options_.overlap), before.plannedEnd());
-    return overlapping + (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
+    const Entry& before = entry(run - 1);
+    double atOnce = *reached;
+    double settled = kSettling;
+    if (e.pause == 0 && before.pause == 0 && before.stop.standTime == 0) {
+        const Course& course = before.run->course();
+        atOnce = std::max(courseTime(run - 1, course.endPlace() - options_.overlap), course.plannedEnd()) +
+                 (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
+        settled = std::max(settled, course.end() - *reached);
+    }
+    const double late = e.ordered - *reached;
+    if (late <= kSameMoment) return atOnce;
+    const double share = std::min(1.0, late / settled);
+    return e.ordered + (1 - share) * (atOnce - *reached) + share * delay;
 }
 
 /// Starts of the runs from this one on that have not begun. `earliest`: the arm has been released then.
@@ -297,16 +308,16 @@ void Trajectory::setSpeedLimits(double now, const SpeedLimits& most) {
     if (!isHeld_) schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
 }
 
-void Trajectory::hold(double now) {
+void Trajectory::hold(double now, StopKind kind) {
     planChanged();
-    if (isHeld_) return;
+    if (isHeld_ && kind == StopKind::Normal) return;
     isHeld_ = true;
     if (entries_.empty()) return;
     const std::size_t active = activeAt(now);
     for (std::size_t i = active; i < count(); ++i) {
         Entry& e = entry(i);
         if (!hasBegun(e, now)) e.isScheduled = false;
-        if (e.isScheduled && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now);
+        if (e.isScheduled && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now, kind);
     }
 }
 

@@ -76,8 +76,8 @@ class Trajectory {
     virtual void setSpeedShare(double now, double share);
     /// From `now` on no faster than this. Robots that follow this one obey from the next movement on.
     virtual void setSpeedLimits(double now, const SpeedLimits& most);
-    /// Brakes on the path and stays there until release().
-    virtual void hold(double now);
+    /// Brakes on the path and stays there until release(). A quick stop also brakes an arm faster that brakes already.
+    virtual void hold(double now, StopKind kind = StopKind::Normal);
     virtual void release(double now);
     virtual bool isHeld() const { return isHeld_; }
     virtual bool isMoving(double time) const;
