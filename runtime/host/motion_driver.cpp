@@ -88,14 +88,7 @@ void MotionDriver::advance(Time time) {
         if (const auto next = system_.nextEventTime())
             step = std::min(time, std::max<Time>(*next, system_.now()));
         system_.advanceModifiers(step);
-        while (!traces_.empty() && nextSample_ <= step) {
-            motion::MotionState state = system_.sample(nextSample_);
-            if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
-                state.motors = motion::motorSide(system_, state, nextSample_);
-            for (TraceSink* trace : traces_)
-                trace->sample(nextSample_, unitName_, state);
-            nextSample_ += tick_;
-        }
+        if (step > 0) trace(step); // at 0 the arm may still be placed
         system_.advanceTo(step);
         const std::vector<motion::MotionEvent> events = system_.takeEvents();
         for (const motion::MotionEvent& event : events)
@@ -107,6 +100,18 @@ void MotionDriver::advance(Time time) {
         reached = step >= time && events.empty();
     }
     advancing_ = false;
+}
+
+/// Writes the samples up to this time.
+void MotionDriver::trace(Time time) {
+    while (!traces_.empty() && nextSample_ <= time) {
+        motion::MotionState state = system_.sample(nextSample_);
+        if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
+            state.motors = motion::motorSide(system_, state, nextSample_);
+        for (TraceSink* trace : traces_)
+            trace->sample(nextSample_, unitName_, state);
+        nextSample_ += tick_;
+    }
 }
 
 void MotionDriver::tell(ArmChange news) {
@@ -225,8 +230,8 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     for (;;) {
         refresh();
         Beginning beginning = beginOrder(&task, command);
-        const auto inCorner = orderInCorner(command, beginning);
-        const auto ordered = inCorner ? *inCorner : system_.enqueue(command);
+        const auto underWay = orderUnderWay(command, beginning);
+        const auto ordered = underWay ? *underWay : system_.enqueue(command);
         if (ordered) {
             id = *ordered;
             noteOrdered(&task, command, id, beginning);
@@ -495,6 +500,7 @@ bool MotionDriver::isSettled() const {
 
 void MotionDriver::finishTrace() {
     advance(scheduler_.now());
+    trace(scheduler_.now());
 }
 
 } // namespace rt

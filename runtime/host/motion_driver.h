@@ -173,24 +173,24 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;
         bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
     };
-    /// The curve of a fly-by point that the arm was on.
-    struct EarlierCorner {
-        motion::MoveCommand before; ///< the move to the point
-        bool isPassed = false;      ///< its point has been passed: it is none of the unfinished moves
-        motion::JointTarget from;   ///< where it begins as programmed
-        double covered = 0;         ///< mm of path since the zone began
+    /// Where the arm was on the first of the moves, or in the zone between two.
+    struct EarlierPlace {
+        std::optional<motion::MoveCommand> before; ///< in a zone: the move to the point
+        bool isPassed = false;                     ///< that one is none of the unfinished moves any more
+        motion::JointTarget from; ///< where `before`, or the first move, begins as programmed
+        double covered = 0;       ///< mm of path since then; in a zone since its beginning
     };
     /// The path that an earlier process left.
     struct EarlierPath {
         std::vector<EarlierLevel> stored;       ///< from the base level on
         std::vector<motion::MoveCommand> moves; ///< to be ordered at once
         std::optional<motion::MoveCommand>
-            awaited;                         ///< then the one whose instruction the program executes again
-        std::optional<motion::Pose> begun;   ///< where the first of all these began; it is under way
-        StopFlags stopMove;                  ///< StopMove holds the arm
-        bool levelHold = false;              ///< RestoPath does
-        bool isSuspended = false;            ///< as in EarlierLevel
-        std::optional<EarlierCorner> corner; ///< on the present level; not of synchronised robots
+            awaited;                       ///< then the one whose instruction the program executes again
+        std::optional<motion::Pose> begun; ///< where the first of all these began; it is under way
+        StopFlags stopMove;                ///< StopMove holds the arm
+        bool levelHold = false;            ///< RestoPath does
+        bool isSuspended = false;          ///< as in EarlierLevel
+        std::optional<EarlierPlace> place; ///< on the present level; not of synchronised robots
     };
     EarlierPath remainingPath();
     /// From where the arm is. The next movement the program orders is `awaited`, whatever its arguments are now.
@@ -271,9 +271,9 @@ class MotionDriver final : public SteppedArm {
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     void orderEarlier(const std::vector<motion::MoveCommand>& moves);
-    std::vector<motion::MoveCommand> orderEarlierCorner(const EarlierPath& path);
-    std::optional<motion::MoveId> orderInCorner(motion::MoveCommand& command, Beginning& beginning);
-    std::optional<EarlierCorner> cornerLeft();
+    std::vector<motion::MoveCommand> orderEarlierUnderWay(const EarlierPath& path);
+    std::optional<motion::MoveId> orderUnderWay(motion::MoveCommand& command, Beginning& beginning);
+    std::optional<EarlierPlace> placeLeft();
     void storeEarlier(const EarlierLevel& level);
     void holdEarlier(const EarlierPath& path);
     struct EarlierOrders;
@@ -283,6 +283,7 @@ class MotionDriver final : public SteppedArm {
     Status takeProcessError(Task& task);
     static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
+    void trace(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
     void applyStops(motion::StopKind kind = motion::StopKind::Normal);

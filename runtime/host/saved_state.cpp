@@ -332,10 +332,10 @@ void SavedState::restorePaths(StateImage& image) {
         findCarriers(controller_.motions(), path.moves);
         for (MotionDriver::EarlierLevel& level : path.stored)
             findCarriers(controller_.motions(), level.moves);
-        if (path.corner) {
-            std::vector<motion::MoveCommand> before{path.corner->before};
+        if (path.place && path.place->before) {
+            std::vector<motion::MoveCommand> before{*path.place->before};
             findCarriers(controller_.motions(), before);
-            path.corner->before = before.front();
+            path.place->before = before.front();
         }
         if (!path.awaited) continue;
         std::vector<motion::MoveCommand> awaited{*path.awaited};

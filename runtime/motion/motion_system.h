@@ -111,23 +111,25 @@ class MotionSystem {
     /// leadTo() moves it.
     bool isLed() const;
 
-    // ---- a corner that an earlier process left (--state) ----
-    /// The curve that the arm is on: it passes the point of this move.
-    struct CornerPlace {
-        MoveId move = 0;
+    // ---- a path that an earlier process left (--state) ----
+    /// Where the arm is on its path.
+    struct PlaceUnderWay {
+        MoveId move = 0; ///< the one in progress; in a zone the one whose point the curve passes
+        bool isInZone = false;
         JointTarget from;   ///< where the move begins as programmed
-        double covered = 0; ///< mm of path since the zone began
+        double covered = 0; ///< mm of path since then; in a zone since its beginning
     };
-    /// Nothing outside zones, beside the path, and when the arm is led or moves together with others.
-    std::optional<CornerPlace> cornerPlace() const;
-    struct OrderedInCorner {
-        MoveId before = 0, after = 0;
-        JointTarget point; ///< the axes at the programmed point
+    /// Nothing beside the path, when the arm is led, and when it stands at the beginning of a move.
+    std::optional<PlaceUnderWay> placeUnderWay() const;
+    struct OrderedUnderWay {
+        MoveId before = 0, move = 0;
+        JointTarget start; ///< the axes where `move` begins as programmed
     };
-    /// Orders the two moves that meet in the corner: the arm, idle and at rest, is on its curve there and continues from it.
-    /// Nothing, and nothing has changed, when the two have no such curve or it does not lead through where the arm is.
-    std::optional<OrderedInCorner> enqueueInCorner(const JointTarget& from, double covered,
-                                                   const MoveCommand& before, const MoveCommand& after);
+    /// Orders a move that the arm, idle and at rest, has covered a part of, and continues from there. `before`: the arm is in
+    /// the zone of the point between this move, which begins at `from` then, and the other. Null: it is on the move, outside
+    /// zones. Nothing, and nothing has changed, when the path does not lead through where the arm is.
+    std::optional<OrderedUnderWay> enqueueUnderWay(const JointTarget& from, double covered,
+                                                   const MoveCommand* before, const MoveCommand& command);
 
     // ---- away from the planned path ----
     /// The modifier acts from now on, after those that were added before.

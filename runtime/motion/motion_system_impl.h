@@ -123,7 +123,7 @@ struct MotionSystem::Impl {
     }
     void noteCleared(MoveId first);
     void holdOrRelease(StopKind kind = StopKind::Normal);
-    std::optional<PathPlace> placeInCorner(double covered, std::size_t moves) const;
+    std::optional<PathPlace> placeAfter(double covered, std::size_t moves) const;
     void coastNow();
     void resume();
     bool startDetour();

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
-constexpr double kSettling = 0.044;  // s from the release of the program at a stop point to standstill, as measured
+constexpr double kMakingUp = 0.03;   // s, for what a run has covered before it was ordered
+constexpr double kSettling =
+    0.044; // s from the release of the program at a stop point to standstill, as measured
 
 /// When the course, which comes to rest, has at most this share of its speed at `from`.
 double slowTime(const Course& course, double from, double share) {
@@ -224,6 +226,8 @@ Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
     entry.path = path;
     entries_.push_back(std::move(entry));
     schedule(count() - 1, now, -std::numeric_limits<double>::infinity());
+    Entry& added = entries_.back();
+    if (added.isScheduled && pause == 0 && added.run->start() < now) added.late = added.run->course().at(now);
     return {{count() - 1, 0}, false, false};
 }
 
@@ -317,7 +321,12 @@ void Trajectory::hold(double now, StopKind kind) {
     for (std::size_t i = active; i < count(); ++i) {
         Entry& e = entry(i);
         if (!hasBegun(e, now)) e.isScheduled = false;
-        if (e.isScheduled && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now, kind);
+        if (!e.isScheduled || e.pause > 0) continue;
+        const Course& course = e.run->course();
+        // What is left of a plan that has ended lies within the last mm, except in a stop on the path.
+        if (now < course.plannedEnd() ||
+            (kind == StopKind::Quick && e.run->isBraking() && now < course.end()))
+            e.run->brake(now, kind);
     }
 }
 
@@ -362,6 +371,20 @@ bool Trajectory::isMoving(double time) const {
     return false;
 }
 
+/// A run that is ordered at the moment at which the stop point before it is reached has begun a little earlier (startAfter()): it has
+/// covered some micrometres then. The arm makes up for them evenly, without a step of place or speed.
+CourseState Trajectory::stateOf(const Entry& entry, double time) {
+    CourseState state = entry.run->course().at(time);
+    const double share = (time - entry.ordered) / kMakingUp;
+    if (!(entry.late.s > 0) || share >= 1) return state;
+    const double u = std::max(0.0, share);
+    const double ofPlace = (2 * u - 3) * u * u + 1;
+    const double ofSpeed = ((u - 2) * u + 1) * u * kMakingUp;
+    state.s -= entry.late.s * ofPlace + entry.late.v * ofSpeed;
+    state.v -= (entry.late.s * 6 * (u - 1) * u / kMakingUp) + entry.late.v * ((3 * u - 4) * u + 1);
+    return state;
+}
+
 /// The runs before this one that have not settled at that time: mm left and speed, added.
 Trajectory::Tail Trajectory::tailBefore(std::size_t run, double time) const {
     Tail tail;
@@ -369,7 +392,7 @@ Trajectory::Tail Trajectory::tailBefore(std::size_t run, double time) const {
         if (entry(i).pause > 0) continue;
         const Course& course = runAt(i).course();
         if (time >= course.end()) break;
-        const CourseState state = course.at(time);
+        const CourseState state = stateOf(entry(i), time);
         tail.left += course.endPlace() - state.s;
         tail.speed += state.v;
     }
@@ -386,7 +409,7 @@ Trajectory::Moment Trajectory::at(double time) const {
         return result;
     }
     std::size_t run = activeAt(time);
-    const CourseState state = entry(run).isScheduled ? runAt(run).course().at(time) : CourseState{};
+    const CourseState state = entry(run).isScheduled ? stateOf(entry(run), time) : CourseState{};
     const Tail tail = tailBefore(run, time);
     result.speed = state.v + tail.speed;
     double place = state.s - tail.left;
@@ -542,6 +565,7 @@ void Trajectory::standAt(double now, const PathPlace& place) {
             e.isScheduled = false;
         } else if (i == place.run) {
             e.run->standAt(now, place.s);
+            e.late = {};
             e.isScheduled = true;
         } else if (e.isScheduled) {
             e.run->startAt(now);

@@ -142,14 +142,16 @@ class Trajectory {
     struct Entry {
         std::unique_ptr<Run> run;
         double ordered = 0;
-        double pause = 0;                       // s, of a run without a way; 0 = it has one
-        bool isScheduled = false;               // its start is known
-        StopPoint stop;                         // at its end
+        double pause = 0;         // s, of a run without a way; 0 = it has one
+        bool isScheduled = false; // its start is known
+        StopPoint stop;           // at its end
+        CourseState late;         // of the course when it was ordered after its start; 0 otherwise
         std::shared_ptr<const MotionPath> path; // of its first move
     };
     const Entry& entry(std::size_t run) const { return entries_[run - first_]; }
     Entry& entry(std::size_t run) { return entries_[run - first_]; }
     const Run& runAt(std::size_t run) const { return *entry(run).run; }
+    static CourseState stateOf(const Entry& entry, double time);
     std::size_t count() const { return first_ + entries_.size(); }
     static bool hasBegun(const Entry& entry, double time);
     std::size_t activeAt(double time) const;

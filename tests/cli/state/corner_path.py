@@ -39,6 +39,8 @@ with tempfile.TemporaryDirectory() as folder:
     parts, pieces, status, log = [], 0, 4, ""
     while status == 4 and pieces < 200:
         status, points, errors = run(folder, "--state=" + folder + "/state", "--max-time=" + seconds)
+        if parts and math.dist(parts[-1], points[0]) > 0.3:
+            print("begins elsewhere:", parts[-1], points[0])
         parts += points
         log += errors
         pieces += 1

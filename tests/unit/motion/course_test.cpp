@@ -110,7 +110,8 @@ TEST_CASE("forgetting the past of a long course changes nothing that follows", "
     CHECK(course.at(course.end()).s == Approx(5010).margin(1e-9));
 }
 
-TEST_CASE("without the long window the course continues without a step and stops sooner", "[motion][course]") {
+TEST_CASE("without the long window the course continues without a step and stops sooner",
+          "[motion][course]") {
     // Rule (decision 112): at 1000 mm/s and 5000 mm/s^2 a stop takes v^2 / 2a = 100 mm and v/2 times the windows.
     constexpr double kNow = 0.5, kSpeed = 1000, kBraking = 5000;
     const auto stopped = [](bool isQuick) {
@@ -135,7 +136,8 @@ TEST_CASE("without the long window the course continues without a step and stops
         const CourseState after = quick.at(time + kStep);
         CHECK(after.s - before.s == Approx(2 * kStep * quick.at(time).v).margin(1e-4));
         CHECK(std::abs(after.v - before.v) < 2 * kStep * 1.01 * kBraking + 1e-2);
-        if (time > kNow && time < quick.end()) CHECK(quick.at(quick.timeAt(quick.at(time).s)).s == Approx(quick.at(time).s));
+        if (time > kNow && time < quick.end())
+            CHECK(quick.at(quick.timeAt(quick.at(time).s)).s == Approx(quick.at(time).s));
     }
     // It is executed to its end, whatever follows, and can then be continued with both windows.
     Course next = quick.continued(kNow + 0.01, kLong, kShort);

@@ -1,4 +1,4 @@
-// MotionSystem: a corner that the arm is inside of, from one process to the next (--state).
+// MotionSystem: a path under way, from one process to the next (--state).
 
 #include "runtime/motion/motion_system_impl.h"
 
@@ -23,45 +23,53 @@ bool isSamePosture(const RoutePoint& point, const JointTarget& there) {
 
 } // namespace
 
-std::optional<MotionSystem::CornerPlace> MotionSystem::cornerPlace() const {
+std::optional<MotionSystem::PlaceUnderWay> MotionSystem::placeUnderWay() const {
     const Impl& s = *impl_;
     const bool isOnPath = !s.isHalted && !s.isCoasting && !s.isStepping && s.detour == nullptr;
     if (!isOnPath || s.level.queue.empty() || s.path().isEmpty() || s.span().path != s.level.path) return {};
     const PathPlace place = s.path().at(s.seconds()).place;
     if (s.path().isPause(place.run)) return {};
     const Route& route = s.path().route(place.run);
+    const auto isLegOf = [&](const Move& move, std::size_t leg) {
+        return move.leg.run == place.run && !move.isPoint && move.leg.leg == leg && leg >= route.firstLeg();
+    };
     for (const auto* moves : {&s.level.finished, &s.level.queue}) {
         for (const auto& move : *moves) {
             const std::size_t leg = move->leg.leg;
-            if (move->leg.run != place.run || move->isPoint || leg < route.firstLeg() ||
-                !route.isRounded(leg))
-                continue;
+            if (!isLegOf(*move, leg) || !route.isRounded(leg)) continue;
             const double covered = place.s - route.zoneEntry(leg);
             if (covered > 0 && place.s < route.zoneExit(leg))
-                return CornerPlace{move->id, route.leg(leg).path->start(), covered};
+                return PlaceUnderWay{move->id, true, route.leg(leg).path->start(), covered};
         }
     }
-    return {};
+    const std::size_t leg = route.legAt(place.s);
+    const Move& front = *s.level.queue.front();
+    if (!isLegOf(front, leg)) return {};
+    const double covered = place.s - route.leg(leg).pathBegin();
+    if (!(covered > 0)) return {};
+    return PlaceUnderWay{front.id, false, route.leg(leg).path->start(), covered};
 }
 
-std::optional<MotionSystem::OrderedInCorner> MotionSystem::enqueueInCorner(const JointTarget& from,
+std::optional<MotionSystem::OrderedUnderWay> MotionSystem::enqueueUnderWay(const JointTarget& from,
                                                                            double covered,
-                                                                           const MoveCommand& before,
-                                                                           const MoveCommand& after) {
+                                                                           const MoveCommand* before,
+                                                                           const MoveCommand& command) {
     Impl& s = *impl_;
     const JointTarget here = currentJoints();
     if (!s.isResting() || from.robax.size() != here.robax.size()) return {};
     const std::shared_ptr<Trajectory> replaced = std::exchange(s.level.path, s.newPath(from, s.seconds()));
     Trajectory& path = s.path();
     std::vector<std::pair<MoveCommand, Trajectory::Appended>> appended;
-    JointTarget point;
-    for (const MoveCommand* command : {&before, &after}) {
-        point = path.endTarget();
-        const auto ordered = s.prepared(*command);
+    OrderedUnderWay result;
+    for (const MoveCommand* one : {before, &command}) {
+        if (one == nullptr) continue;
+        result.start = path.endTarget();
+        const auto ordered = s.prepared(*one);
         if (!ordered) break;
         appended.emplace_back(ordered->command, path.append(ordered->path, ordered->command, s.seconds()));
     }
-    const auto place = s.placeInCorner(covered, appended.size());
+    const std::size_t wanted = before != nullptr ? 2 : 1;
+    const auto place = appended.size() == wanted ? s.placeAfter(covered, wanted) : std::nullopt;
     if (!place || !isSamePosture(path.pointAt(*place), here)) {
         s.level.path = replaced;
         return {};
@@ -69,11 +77,14 @@ std::optional<MotionSystem::OrderedInCorner> MotionSystem::enqueueInCorner(const
     s.level.finished.clear();
     path.hold(s.seconds());
     path.standAt(s.seconds(), *place);
-    OrderedInCorner result{s.registerMove(appended[0].first, appended[0].second), 0, point};
+    for (const auto& [made, at] : appended) {
+        result.before = result.move;
+        result.move = s.registerMove(made, at);
+    }
     const std::shared_ptr<Move> first = s.level.queue.front();
-    result.after = s.registerMove(appended[1].first, appended[1].second);
-    first->isStarted = first->isReleased = true;
-    if (*place >= s.endOf(*first)) s.finishFront();
+    first->isStarted = true;
+    if (before != nullptr) first->isReleased = true;
+    if (before != nullptr && *place >= s.endOf(*first)) s.finishFront();
     s.modifiers.pathReplaced();
     s.follow(s.level.path, s.now);
     s.holdOrRelease();
@@ -81,14 +92,16 @@ std::optional<MotionSystem::OrderedInCorner> MotionSystem::enqueueInCorner(const
     return result;
 }
 
-/// On the path of two moves that form a corner; nothing when they do not, or the place lies outside.
-std::optional<PathPlace> MotionSystem::Impl::placeInCorner(double covered, std::size_t moves) const {
-    if (moves < 2 || path().lastRun() != path().firstRun() || path().isPause(path().firstRun())) return {};
-    const Route& route = path().route(path().firstRun());
-    if (route.legCount() != 2 || !route.isRounded(0)) return {};
+/// On a path of one move, or in the corner of two; nothing when there is no such place.
+std::optional<PathPlace> MotionSystem::Impl::placeAfter(double covered, std::size_t moves) const {
+    const std::size_t run = path().firstRun();
+    if (path().lastRun() != run || path().isPause(run) || !(covered > 0)) return {};
+    const Route& route = path().route(run);
+    if (route.legCount() != moves) return {};
+    if (moves == 1) return covered < route.length() ? std::optional(PathPlace{run, covered}) : std::nullopt;
     const double place = route.zoneEntry(0) + covered;
-    if (!(covered > 0) || !(place < route.zoneExit(0))) return {};
-    return PathPlace{path().firstRun(), place};
+    if (!route.isRounded(0) || !(place < route.zoneExit(0))) return {};
+    return PathPlace{run, place};
 }
 
 } // namespace motion
