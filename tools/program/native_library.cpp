@@ -4,9 +4,6 @@
 #include "stdlib/native_table.h"
 
 #include <cstdlib>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 namespace rapidc {
 
@@ -19,18 +16,6 @@ std::vector<codegen::NativeSymbol> nativeSymbols() {
     return symbols;
 }
 
-namespace {
-/// IR instructions of a routine whose passes and words take hundreds of megabytes.
-constexpr size_t kHuge = 1'000'000;
-
-/// The thread that compiles allocates in a heap of its own, which cannot take what another thread has freed.
-void returnFreeMemory() {
-#if defined(__GLIBC__)
-    ::malloc_trim(0);
-#endif
-}
-} // namespace
-
 codegen::CodegenOptions codegenOptions(bool optimise) {
     codegen::CodegenOptions options;
     options.optimise = optimise;
@@ -41,18 +26,13 @@ codegen::CodegenOptions codegenOptions(bool optimise) {
 void runPassesInParts(codegen::CodegenOptions& options, ir::Module& module, const ir::PassOptions& passes) {
     if (module.instructionCount() <= options.partsAbove) return;
     options.prepare = [&module, passes](uint32_t routine, std::string& problem) {
-        const bool huge = module.routines[routine].insts.size() >= kHuge;
-        if (huge) returnFreeMemory();
         const std::vector<std::string> findings = ir::runPasses(module, routine, passes);
-        if (huge) returnFreeMemory();
         problem = findings.empty() ? "" : findings.front();
         return findings.empty();
     };
     options.release = [&module](uint32_t routine) {
-        const bool huge = module.routines[routine].insts.size() >= kHuge;
         module.routines[routine].insts = {};
         module.routines[routine].blocks = {};
-        if (huge) returnFreeMemory();
     };
 }
 

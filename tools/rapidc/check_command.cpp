@@ -7,7 +7,6 @@
 #include "tools/rapidc/missing_report.h"
 
 #include "frontend/project/neighbours.h"
-#include "frontend/source/heap.h"
 #include "runtime/host/run_options.h"
 
 #include <cstdio>
@@ -64,7 +63,6 @@ void printMissing(const Compilation& compilation, const Inputs& inputs, bool jso
 }
 
 int check(CheckSettings& settings) {
-    rapid::putHeapOnHugePages();
     if (settings.missing && settings.format == "sarif") {
         fmt::print(stderr, "rapidc check: --missing has the formats human and json\n");
         return static_cast<int>(rt::ExitStatus::BadUsage);
