@@ -87,7 +87,8 @@ std::optional<MotionSystem::OrderedUnderWay> MotionSystem::enqueueUnderWay(const
     if (before != nullptr && *place >= s.endOf(*first)) s.finishFront();
     s.modifiers.pathReplaced();
     s.follow(s.level.path, s.now);
-    s.holdOrRelease();
+    // As after every order to an arm at rest: movements that the program orders until then are known in time.
+    if (!s.isHeld()) path.release(s.seconds() + TrajectoryOptions().startDelay);
     s.noteMotion();
     return result;
 }
