@@ -53,6 +53,10 @@ bool linkNativeBodies(llvm::Module& program, const NativeBodies& bodies, std::st
         llvm::Function* function = program.getFunction(name);
         function->setLinkage(llvm::GlobalValue::InternalLinkage);
         function->addFnAttr(llvm::Attribute::InlineHint);
+        if (!function->hasFnAttribute(llvm::Attribute::AlwaysInline)) continue;
+        // Inlined in any case, but with other routines: the pass that does so beforehand computes frequencies of blocks.
+        function->removeFnAttr(llvm::Attribute::AlwaysInline);
+        function->addFnAttr("function-inline-cost", "0");
     }
     // It only computes, and so may be done before a loop; LLVM does not say so of instructions of one processor.
     if (llvm::Function* shuffle = program.getFunction("llvm.x86.ssse3.pshuf.b.128"))

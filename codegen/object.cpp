@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include "codegen/compile.h"
@@ -63,8 +65,10 @@ class PartCompiler {
             });
         if (error_.empty()) {
             parts_ = divide(module_, options_);
-            onAllProcessors(parts_.size(),
-                            [this](size_t i, std::string& problem) { return compilePart(i, problem); });
+            const std::vector<size_t> order = longestFirst();
+            onAllProcessors(parts_.size(), [this, &order](size_t i, std::string& problem) {
+                return compilePart(order[i], problem);
+            });
         }
         for (size_t i = 0; i < parts_.size(); ++i)
             paths.push_back(pathOf(i));
@@ -77,6 +81,22 @@ class PartCompiler {
     static constexpr uint64_t kCacheBytes = uint64_t{1} << 30;
 
     std::string pathOf(size_t part) const { return folder_ + "/part" + std::to_string(part) + ".o"; }
+
+    /// The parts in an order that keeps all processors busy to the end: what takes long is not left for the last.
+    std::vector<size_t> longestFirst() const {
+        constexpr size_t kPacedShare = 4; // optimised little: a quarter of the time of other instructions
+        std::vector<size_t> sizes(parts_.size(), 0), order(parts_.size());
+        for (size_t i = 0; i < parts_.size(); ++i) {
+            for (const uint32_t routine : parts_[i].routines)
+                sizes[i] += module_.routines[routine].insts.size();
+            if (parts_[i].isPaced) sizes[i] /= kPacedShare;
+            if (parts_[i].tables) sizes[i] = std::numeric_limits<size_t>::max();
+        }
+        std::iota(order.begin(), order.end(), size_t{0});
+        std::sort(order.begin(), order.end(),
+                  [&](size_t a, size_t b) { return sizes[a] != sizes[b] ? sizes[a] > sizes[b] : a < b; });
+        return order;
+    }
 
     /// Each number below `count` is given to `work` once. The first failure ends it.
     template <class Work> void onAllProcessors(size_t count, Work work) {
@@ -142,7 +162,9 @@ std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, st
     auto machine = makeTargetMachine(options, error);
     if (!machine) return {};
     llvm::LLVMContext context;
-    auto compiled = compile(module, options, *machine, context, error);
+    CodegenOptions named = options;
+    named.namesValues = true;
+    auto compiled = compile(module, named, *machine, context, error);
     if (!compiled) return {};
     std::string text;
     llvm::raw_string_ostream stream(text);

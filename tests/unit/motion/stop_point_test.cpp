@@ -56,7 +56,7 @@ TEST_CASE("the time of a movement after a stop point grows evenly with the time 
     // A little later costs that time and a little more: no step.
     CHECK(twoLines(kMs / 10).seconds - atOnce == Approx(0.0002).margin(0.0002));
     CHECK(twoLines(kMs).seconds - atOnce == Approx(0.0018).margin(0.0004));
-    // Ordered when the arm stands it begins 20 ms later; ordered at once when the last mm is left, about 10 ms before the release.
+    // Ordered when the arm is at rest it begins 20 ms later; ordered at once when the last mm is left, about 10 ms before the release.
     CHECK(twoLines(100 * kMs).seconds - atOnce == Approx(0.13).margin(0.007));
     double before = atOnce;
     for (TimeNs wait = 5 * kMs; wait <= 80 * kMs; wait += 5 * kMs) {
