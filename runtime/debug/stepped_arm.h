@@ -3,6 +3,7 @@
 
 #include "runtime/abi/rt_abi.h"
 #include "runtime/motion/move_command.h"
+#include "runtime/motion/stop_kind.h"
 
 #include <cstdint>
 
@@ -21,7 +22,7 @@ struct MotionPointer {
 class SteppedArm {
   public:
     /// The controller's stop and start.
-    virtual void programStop() = 0;
+    virtual void programStop(motion::StopKind kind = motion::StopKind::Normal) = 0;
     virtual void programStart() = 0;
     /// ClearPath, program pointer moved.
     virtual void clearPath() = 0;

@@ -332,10 +332,10 @@ void Controller::stopTasks(const char* order, SystemEvent event) {
     if (!any) log_.write(EventId::NothingStopped, nullptr, {"stop", "executing"});
 }
 
-/// The arm brakes on its path as fast as its limits allow in either case.
 void Controller::actionStop(SystemEvent event) {
     stopTasks(event == SystemEvent::QuickStop ? "quick stop order" : "stop order", event);
-    forEachArm([](SteppedArm& arm) { arm.programStop(); });
+    const auto kind = event == SystemEvent::QuickStop ? motion::StopKind::Quick : motion::StopKind::Normal;
+    forEachArm([kind](SteppedArm& arm) { arm.programStop(kind); });
 }
 
 void Controller::orderStartEvent(Task& task) {

@@ -32,7 +32,22 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     path.stopMove = stopMove_;
     path.levelHold = levelHold_;
     path.isSuspended = isSuspended_;
+    path.place = earlier_.place ? earlier_.place : placeLeft();
     return path;
+}
+
+/// Robots that move together order the rest of their paths from where they are.
+std::optional<MotionDriver::EarlierPlace> MotionDriver::placeLeft() {
+    if (synchronised_ != nullptr) return {};
+    const auto place = system().placeUnderWay();
+    if (!place) return {};
+    for (const UnfinishedMove& move : ordered_) {
+        if (move.id != place->move) continue;
+        EarlierPlace left{{}, system_.isDone(move.id), place->from, place->covered};
+        if (place->isInZone) left.before = move.command;
+        return left;
+    }
+    return {};
 }
 
 void MotionDriver::orderEarlier(const std::vector<motion::MoveCommand>& moves) {
@@ -40,7 +55,8 @@ void MotionDriver::orderEarlier(const std::vector<motion::MoveCommand>& moves) {
         continueEarlier(command);
         command.tag = ++instructions_;
         const motion::Pose start = startOf(command);
-        if (const auto id = system_.enqueue(command)) enqueued(*id, command, start, nullptr);
+        if (const auto id = system_.enqueue(command))
+            enqueued(*id, command, start, system_.plannedEnd(), nullptr);
     }
 }
 
@@ -62,8 +78,55 @@ void MotionDriver::continuePath(const EarlierPath& path) {
         storeEarlier(level);
     earlier_ = path;
     earlier_.awaited.reset();
-    orderEarlier(path.moves);
+    orderEarlier(orderEarlierUnderWay(path));
     holdEarlier(path);
+}
+
+/// Orders the move that the arm has covered a part of; of a zone both moves. The moves that are left to be ordered: none while
+/// the first one belongs to the instruction that the program executes again.
+std::vector<motion::MoveCommand> MotionDriver::orderEarlierUnderWay(const EarlierPath& path) {
+    if (!path.place) return path.moves;
+    const std::size_t first = path.place->before && !path.place->isPassed ? 1 : 0;
+    if (path.moves.size() <= first) {
+        if (path.awaited) return {};
+        earlier_.place.reset();
+        return path.moves;
+    }
+    motion::MoveCommand command = path.moves[first];
+    Beginning beginning;
+    const auto id = orderUnderWay(command, beginning);
+    if (!id) return path.moves;
+    noteOrdered(nullptr, command, *id, beginning);
+    return {path.moves.begin() + static_cast<std::ptrdiff_t>(first) + 1, path.moves.end()};
+}
+
+/// Nothing when no move is left to be taken over, or when the arm is elsewhere: then the rest is ordered from where it is.
+std::optional<motion::MoveId> MotionDriver::orderUnderWay(motion::MoveCommand& command,
+                                                          Beginning& beginning) {
+    const auto place = std::exchange(earlier_.place, {});
+    if (!place) return {};
+    std::optional<motion::MoveCommand> before = place->before;
+    if (before) before->tag = instructions_ + 1;
+    command.tag = instructions_ + (before ? 2 : 1);
+    const auto ordered =
+        system_.enqueueUnderWay(place->from, place->covered, before ? &*before : nullptr, command);
+    if (!ordered) {
+        if (before && !place->isPassed)
+            orderEarlier({*before});
+        else
+            continueEarlier(command);
+        command.tag = instructions_ + 1;
+        beginning = {startOf(command), system_.plannedEnd()};
+        return {};
+    }
+    earlier_.begun.reset();
+    if (before) {
+        ++instructions_;
+        const motion::Pose start = system_.toRobTarget(place->from, before->frames).pose;
+        enqueued(ordered->before, *before, start, ordered->start, nullptr);
+    }
+    beginning = {system_.toRobTarget(ordered->start, command.frames).pose, ordered->start};
+    return ordered->move;
 }
 
 void MotionDriver::holdEarlier(const EarlierPath& path) {
@@ -82,6 +145,7 @@ void MotionDriver::continueEarlier(motion::MoveCommand& command) {
         command.triggers = std::move(triggers);
         command.tag = tag;
     }
+    if (earlier_.place) return; // ordered as a whole
     const auto begun = std::exchange(earlier_.begun, {});
     if (begun && command.kind == motion::MoveKind::Circular)
         command = motion::restOfCircle(command, *begun, system_.currentTarget(command.frames).pose);

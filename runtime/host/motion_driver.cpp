@@ -88,14 +88,7 @@ void MotionDriver::advance(Time time) {
         if (const auto next = system_.nextEventTime())
             step = std::min(time, std::max<Time>(*next, system_.now()));
         system_.advanceModifiers(step);
-        while (!traces_.empty() && nextSample_ <= step) {
-            motion::MotionState state = system_.sample(nextSample_);
-            if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
-                state.motors = motion::motorSide(system_, state, nextSample_);
-            for (TraceSink* trace : traces_)
-                trace->sample(nextSample_, unitName_, state);
-            nextSample_ += tick_;
-        }
+        if (step > 0) trace(step); // at 0 the arm may still be placed
         system_.advanceTo(step);
         const std::vector<motion::MotionEvent> events = system_.takeEvents();
         for (const motion::MotionEvent& event : events)
@@ -107,6 +100,18 @@ void MotionDriver::advance(Time time) {
         reached = step >= time && events.empty();
     }
     advancing_ = false;
+}
+
+/// Writes the samples up to this time.
+void MotionDriver::trace(Time time) {
+    while (!traces_.empty() && nextSample_ <= time) {
+        motion::MotionState state = system_.sample(nextSample_);
+        if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
+            state.motors = motion::motorSide(system_, state, nextSample_);
+        for (TraceSink* trace : traces_)
+            trace->sample(nextSample_, unitName_, state);
+        nextSample_ += tick_;
+    }
 }
 
 void MotionDriver::tell(ArmChange news) {
@@ -224,8 +229,9 @@ Status MotionDriver::submit(Task& task, motion::MoveCommand command, motion::Mov
     WaitResult result{};
     for (;;) {
         refresh();
-        const Beginning beginning = beginOrder(&task, command);
-        const auto ordered = system_.enqueue(command);
+        Beginning beginning = beginOrder(&task, command);
+        const auto underWay = orderUnderWay(command, beginning);
+        const auto ordered = underWay ? *underWay : system_.enqueue(command);
         if (ordered) {
             id = *ordered;
             noteOrdered(&task, command, id, beginning);
@@ -252,7 +258,7 @@ MotionDriver::Beginning MotionDriver::beginOrder(const Task* task, motion::MoveC
 
 void MotionDriver::noteOrdered(const Task* task, const motion::MoveCommand& command, motion::MoveId id,
                                const Beginning& beginning) {
-    enqueued(id, command, beginning.pose, task);
+    enqueued(id, command, beginning.pose, system_.plannedEnd(), task);
     for (const auto& listener : orderListeners_)
         listener({id, command, beginning.joints, system_.plannedEnd()});
     ++instructions_;
@@ -365,25 +371,25 @@ Status MotionDriver::waitZeroSpeed(Task& task) {
     return task.waitFor({{&changed_}, [this] { return !system().isMoving(); }}, result);
 }
 
-void MotionDriver::applyStops() {
-    holdOrRelease();
+void MotionDriver::applyStops(motion::StopKind kind) {
+    holdOrRelease(kind);
     if (synchronised_ == nullptr) return refresh();
     for (const SynchronisedGroup::Member& member : synchronised_->members())
-        member.driver->holdOrRelease();
+        member.driver->holdOrRelease(kind);
     refresh();
 }
 
 /// Robots that move together stop and start together.
-void MotionDriver::holdOrRelease() {
+void MotionDriver::holdOrRelease(motion::StopKind kind) {
     advance(scheduler_.now());
     const bool held = synchronised() != nullptr ? synchronised()->isHeld() : isHeldItself();
-    if (held && !system_.isStopRequested()) system_.stop();
+    if (held && (!system_.isStopRequested() || kind == motion::StopKind::Quick)) system_.stop(kind);
     if (!held && system_.isStopRequested()) system_.start();
 }
 
-void MotionDriver::stopMove(StopOrigin origin) {
+void MotionDriver::stopMove(StopOrigin origin, motion::StopKind kind) {
     stopMove_.of(origin) = true;
-    applyStops();
+    applyStops(kind);
 }
 
 void MotionDriver::startMove(StopOrigin origin) {
@@ -392,9 +398,9 @@ void MotionDriver::startMove(StopOrigin origin) {
     applyStops();
 }
 
-void MotionDriver::programStop() {
+void MotionDriver::programStop(motion::StopKind kind) {
     if (!std::exchange(programStop_, true)) tell(ArmChange::StopOnPath);
-    applyStops();
+    applyStops(kind);
 }
 
 void MotionDriver::programStart() {
@@ -430,12 +436,12 @@ Status MotionDriver::stepBack(Task& task, double mm, double mmPerSecond, bool& p
     return waitZeroSpeed(task);
 }
 
-void MotionDriver::clearLevel() {
+void MotionDriver::clearLevel(motion::StopKind kind) {
     advance(scheduler_.now());
     interrupted_ = {};
     earlier_ = {};
     levelHold_ = false;
-    system_.clear();
+    system_.clear(kind);
     dropActions(
         [this](const PendingAction& pending) { return pending.move != 0 && system_.isDone(pending.move); });
     if (const auto group = synchronised()) // the others cannot finish the movement alone
@@ -445,10 +451,10 @@ void MotionDriver::clearLevel() {
     changed_.notifyAll(); // moves that tasks wait for are gone
 }
 
-void MotionDriver::breakOff(bool stiff) {
+void MotionDriver::breakOff(BreakOff how) {
     advance(scheduler_.now());
-    if (stiff) system_.halt();
-    clearLevel();
+    if (how == BreakOff::Stiff) system_.halt();
+    clearLevel(how == BreakOff::QuicklyOnPath ? motion::StopKind::Quick : motion::StopKind::Normal);
     brokenOff_ = true;
 }
 
@@ -472,8 +478,9 @@ motion::Pose MotionDriver::startOf(const motion::MoveCommand& command) const {
 }
 
 void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
-                            const Task* task) {
-    while (!ordered_.empty() && system_.isDone(ordered_.front().id))
+                            const motion::JointTarget& endAxes, const Task* task) {
+    while (ordered_.size() > 1 &&
+           system_.isDone(ordered_[1].id)) // the arm may be in the corner after one that is done
         ordered_.pop_front();
     ordered_.push_back({id, command, start, pathLevel()});
     if (traces_.empty()) return;
@@ -481,7 +488,7 @@ void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& comman
     frames.workObject = {}; // world
     frames.displacement = {};
     motion::Pose end = frames.tool.tframe; // a stationary tool
-    if (frames.tool.robotHeld) end = system_.toRobTarget(system_.plannedEnd(), frames).pose;
+    if (frames.tool.robotHeld) end = system_.toRobTarget(endAxes, frames).pose;
     const MoveOrder order{command.tag, command, end, task ? placeOf(frameOf(*task)) : SourcePlace()};
     for (TraceSink* trace : traces_)
         trace->ordered(order);
@@ -493,6 +500,7 @@ bool MotionDriver::isSettled() const {
 
 void MotionDriver::finishTrace() {
     advance(scheduler_.now());
+    trace(scheduler_.now());
 }
 
 } // namespace rt

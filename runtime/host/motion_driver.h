@@ -31,6 +31,13 @@ struct PathAction {
     std::function<void()> act; ///< called by the scheduler, not on a task's fibre
 };
 
+/// How a movement in progress is ended by its own instruction (searches).
+enum class BreakOff : uint8_t {
+    OnPath,        ///< brakes on the path
+    QuicklyOnPath, ///< as a quick stop
+    Stiff          ///< each axis brakes for itself
+};
+
 /// Changes of the arm's state, for services that accompany it (TriggSpeed, TriggStopProc).
 enum class ArmChange : uint8_t {
     Event,       ///< a movement has begun or ended, the arm has come to rest or continues
@@ -115,7 +122,8 @@ class MotionDriver final : public SteppedArm {
 
     /// StopMove / StartMove, and the controller's stop / start. The arm moves when neither holds it.
     /// Motion tasks and other tasks have a stop of their own (IsStopMoveAct); each ends with the start of the same kind.
-    void stopMove(StopOrigin origin = StopOrigin::MotionTask);
+    void stopMove(StopOrigin origin = StopOrigin::MotionTask,
+                  motion::StopKind kind = motion::StopKind::Normal);
     void startMove(StopOrigin origin = StopOrigin::MotionTask);
     bool isStopMoveActive() const { return stopMove_.isSet(); }
     bool isStopMoveActive(StopOrigin origin) const { return stopMove_.of(origin); }
@@ -134,7 +142,7 @@ class MotionDriver final : public SteppedArm {
     std::optional<motion::MotionSystem::PathGap> gapToPath() { return system().gapToPath(); }
     /// An error handler has executed RETRY: a path that was taken back continues.
     void noteRetry();
-    void programStop() override;
+    void programStop(motion::StopKind kind = motion::StopKind::Normal) override;
     /// The program stops by itself, with the arm standing still.
     void noteStop() { tell(ArmChange::StopOnPath); }
     void programStart() override;
@@ -151,10 +159,9 @@ class MotionDriver final : public SteppedArm {
     /// ExitCycle: as clearPath() when a path is put aside, else nothing.
     void leaveLevels();
     /// ClearPath: the path of the present level is gone.
-    void clearLevel();
-    /// The movement in progress ends here (searches): the arm brakes on its path as fast as it can, or `stiff`: each axis
-    /// for itself. The next order begins where it comes to rest.
-    void breakOff(bool stiff);
+    void clearLevel(motion::StopKind kind = motion::StopKind::Normal);
+    /// The movement in progress ends here (searches). The next order begins where the arm comes to rest.
+    void breakOff(BreakOff how);
     /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
     bool continuesMovement(const Task& task);
 
@@ -166,6 +173,13 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;
         bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
     };
+    /// Where the arm was on the first of the moves, or in the zone between two.
+    struct EarlierPlace {
+        std::optional<motion::MoveCommand> before; ///< in a zone: the move to the point
+        bool isPassed = false;                     ///< that one is none of the unfinished moves any more
+        motion::JointTarget from; ///< where `before`, or the first move, begins as programmed
+        double covered = 0;       ///< mm of path since then; in a zone since its beginning
+    };
     /// The path that an earlier process left.
     struct EarlierPath {
         std::vector<EarlierLevel> stored;       ///< from the base level on
@@ -176,6 +190,7 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;                ///< StopMove holds the arm
         bool levelHold = false;            ///< RestoPath does
         bool isSuspended = false;          ///< as in EarlierLevel
+        std::optional<EarlierPlace> place; ///< on the present level; not of synchronised robots
     };
     EarlierPath remainingPath();
     /// From where the arm is. The next movement the program orders is `awaited`, whatever its arguments are now.
@@ -247,15 +262,18 @@ class MotionDriver final : public SteppedArm {
     Status submitTogether(Task& task, motion::MoveCommand command, motion::MoveId& id,
                           std::optional<motion::MotionError>& error);
     void refreshAlone();
-    void holdOrRelease();
+    void holdOrRelease(motion::StopKind kind);
     Status waitReleased(Task& task, motion::MoveId id);
     motion::Pose startOf(const motion::MoveCommand& command) const;
     /// `task` null: the place of the movement in the program is not known.
     void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
-                  const Task* task);
+                  const motion::JointTarget& endAxes, const Task* task);
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     void orderEarlier(const std::vector<motion::MoveCommand>& moves);
+    std::vector<motion::MoveCommand> orderEarlierUnderWay(const EarlierPath& path);
+    std::optional<motion::MoveId> orderUnderWay(motion::MoveCommand& command, Beginning& beginning);
+    std::optional<EarlierPlace> placeLeft();
     void storeEarlier(const EarlierLevel& level);
     void holdEarlier(const EarlierPath& path);
     struct EarlierOrders;
@@ -265,9 +283,10 @@ class MotionDriver final : public SteppedArm {
     Status takeProcessError(Task& task);
     static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
+    void trace(Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
-    void applyStops();
+    void applyStops(motion::StopKind kind = motion::StopKind::Normal);
     void tell(ArmChange news);
 
     Scheduler& scheduler_;

@@ -191,6 +191,13 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
                  {"suspended", path.isSuspended}};
     if (path.awaited) json["awaited"] = jsonOf(*path.awaited);
     if (path.begun) json["begun"] = jsonOf(*path.begun);
+    if (const auto& place = path.place) {
+        json["place"] = {{"passed", place->isPassed},
+                         {"from", place->from.robax},
+                         {"fromAxes", place->from.extax},
+                         {"covered", place->covered}};
+        if (place->before) json["place"]["before"] = jsonOf(*place->before);
+    }
     Json stored = Json::array();
     for (const MotionDriver::EarlierLevel& level : path.stored) {
         Json one = {{"path", movesJson(level.moves)},
@@ -215,6 +222,14 @@ MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLoo
     if (!json.contains("stored")) return path; // written by an earlier version
     json.at("levelHold").get_to(path.levelHold);
     path.isSuspended = json.value("suspended", false);
+    if (json.contains("place")) {
+        const Json& place = json.at("place");
+        path.place = {{},
+                      place.at("passed").get<bool>(),
+                      {jointsFrom(place.at("from")), numbersFrom<6>(place.at("fromAxes"))},
+                      place.at("covered").get<double>()};
+        if (place.contains("before")) path.place->before = moveFrom(place.at("before"), units);
+    }
     for (const Json& one : json.at("stored")) {
         MotionDriver::EarlierLevel level;
         level.moves = movesFrom(one.at("path"), units);

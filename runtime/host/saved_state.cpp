@@ -332,6 +332,11 @@ void SavedState::restorePaths(StateImage& image) {
         findCarriers(controller_.motions(), path.moves);
         for (MotionDriver::EarlierLevel& level : path.stored)
             findCarriers(controller_.motions(), level.moves);
+        if (path.place && path.place->before) {
+            std::vector<motion::MoveCommand> before{*path.place->before};
+            findCarriers(controller_.motions(), before);
+            path.place->before = before.front();
+        }
         if (!path.awaited) continue;
         std::vector<motion::MoveCommand> awaited{*path.awaited};
         findCarriers(controller_.motions(), awaited);

@@ -9,6 +9,37 @@ Course::Course(double time, double place, double longWindow, double shortWindow)
     : knots_{Knot{time, 0, 0, 0, 0, 0, {}}}, origin_(place), longWindow_(longWindow),
       shortWindow_(shortWindow) {}
 
+Course Course::continued(double time, double longWindow, double shortWindow) const {
+    Course next(std::max(time, end()), endPlace(), longWindow, shortWindow);
+    next.from_ = next.knots_.front().t;
+    next.before_ = std::make_shared<const Course>(*this);
+    return next;
+}
+
+/// The average over the long window as far back as the short one reaches, in short pieces: it is of the third degree.
+void Course::dropLongWindow(double time) {
+    if (isExact() || isQuick() || time <= knots_.front().t) return;
+    constexpr int kPieces = 64;
+    const auto before = std::make_shared<const Course>(*this);
+    std::deque<Knot> averaged;
+    for (int i = 0; i <= kPieces; ++i) {
+        Knot knot;
+        knot.t = time - shortWindow_ * (kPieces - i) / kPieces;
+        const Integrals now = before->integralsAt(knot.t);
+        const Integrals first = before->integralsAt(knot.t - longWindow_);
+        knot.s = (now.once - first.once) / longWindow_;
+        knot.v = std::max(0.0, (now.s - first.s) / longWindow_);
+        if (i > 0) averaged.back().a = (knot.v - averaged.back().v) / (knot.t - averaged.back().t);
+        averaged.push_back(knot);
+    }
+    knots_ = {averaged.front()};
+    longWindow_ = 0;
+    for (std::size_t i = 1; i < averaged.size(); ++i)
+        push(averaged[i]);
+    before_ = before;
+    from_ = time;
+}
+
 void Course::push(const Knot& knot) {
     const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot
     knots_.push_back(knot);
@@ -112,6 +143,7 @@ void Course::cutAfter(double time) {
 void Course::shift(double seconds) {
     for (Knot& knot : knots_)
         knot.t += seconds;
+    before_ = nullptr; // nothing has been executed
 }
 
 double Course::slowBy(double factor) {
@@ -129,6 +161,7 @@ double Course::slowBy(double factor) {
 }
 
 void Course::forgetBefore(double time) {
+    if (time >= from_) before_ = nullptr;
     const double needed = time - longWindow_ - shortWindow_;
     constexpr std::size_t kWorthwhile = 256;
     if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed) return;
@@ -204,15 +237,22 @@ double Course::plannedTimeAt(double place) const {
 }
 
 CourseState Course::at(double time) const {
+    if (before_ != nullptr && time < from_) return before_->at(time);
     if (time >= end()) return {endPlace(), 0, 0};
     if (time <= knots_.front().t) return {origin_ + knots_.front().s, 0, 0};
     if (isExact()) return plannedAt(time);
     const Integrals now = integralsAt(time);
-    const Integrals first = integralsAt(time - longWindow_);
+    CourseState state;
     const Integrals second = integralsAt(time - shortWindow_);
+    if (isQuick()) {
+        state.s = origin_ + (now.once - second.once) / shortWindow_;
+        state.v = std::max(0.0, (now.s - second.s) / shortWindow_);
+        state.a = (now.v - second.v) / shortWindow_;
+        return state;
+    }
+    const Integrals first = integralsAt(time - longWindow_);
     const Integrals both = integralsAt(time - longWindow_ - shortWindow_);
     const double share = 1 / (longWindow_ * shortWindow_);
-    CourseState state;
     state.s = origin_ + (now.twice - first.twice - second.twice + both.twice) * share;
     state.v = std::max(0.0, (now.once - first.once - second.once + both.once) * share);
     state.a = (now.s - first.s - second.s + both.s) * share;
@@ -222,6 +262,7 @@ CourseState Course::at(double time) const {
 double Course::timeAt(double place) const {
     constexpr double kNothing = 1e-9; // mm
     if (place >= endPlace() - kNothing) return end();
+    if (before_ != nullptr && place <= before_->at(from_).s) return before_->timeAt(place);
     double low = plannedTimeAt(place);
     if (isExact()) return low;
     double high = low + longWindow_ + shortWindow_;

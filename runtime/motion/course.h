@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 
 namespace motion {
 
@@ -25,7 +26,9 @@ class Course {
     void moveTo(double place, double speed);
     /// At rest at `place` from `time` (s) on and before; executed as planned.
     static Course exact(double time, double place) { return {time, place, 0, 0}; }
-    bool isExact() const { return longWindow_ == 0; }
+    bool isExact() const { return shortWindow_ == 0; }
+    /// At rest at the end of this course after it has been executed, from `time` on or, if that is later, from its end on.
+    Course continued(double time, double longWindow, double shortWindow) const;
     /// How acceleration changes on a piece of an exact course: by the time, or by the place, which makes the square of the
     /// speed a quadratic function of the place.
     struct Change {
@@ -41,6 +44,10 @@ class Course {
     void rest(double seconds);
     /// Drops what is planned after `time`. The plan then ends there, perhaps moving.
     void cutAfter(double time);
+    /// From `time` on, which is not before the execution of the plan begins, only the short window averages: the plan is cut
+    /// there, and continues from the average over the long window with the speed that this has.
+    void dropLongWindow(double time);
+    bool isQuick() const { return longWindow_ == 0 && !isExact(); } ///< it has been dropped
     /// Shifts the whole course in time by that many seconds.
     void shift(double seconds);
     /// Makes the whole exact plan take that many times as long; its highest speed then, mm/s.
@@ -50,7 +57,8 @@ class Course {
 
     /// The plan, before it is averaged.
     CourseState plannedAt(double time) const;
-    double begin() const { return knots_.front().t; }     ///< s, of what is remembered
+    /// s, of what is remembered
+    double begin() const { return before_ != nullptr ? before_->begin() : knots_.front().t; }
     double plannedEnd() const { return knots_.back().t; } ///< s
     double endPlace() const { return knots_.back().s + origin_; }
     /// When the last braking of the plan begins; its end if it does not end with braking.
@@ -83,6 +91,8 @@ class Course {
     std::deque<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0
     double origin_ = 0;              // subtracted from places, so that integrals stay small
     double longWindow_ = 1, shortWindow_ = 1;
+    std::shared_ptr<const Course> before_; // executed until `from_`; null for none
+    double from_ = 0;
 };
 
 } // namespace motion

@@ -18,7 +18,7 @@ class Follower final : public Trajectory {
     void closeLast() override { leader_->closeLast(); }
     bool isEmpty() const override { return leader_->isEmpty(); }
     void setSpeedShare(double now, double share) override { leader_->setSpeedShare(now, share); }
-    void hold(double now) override { leader_->hold(now); }
+    void hold(double now, StopKind kind) override { leader_->hold(now, kind); }
     void release(double now) override { leader_->release(now); }
     bool isHeld() const override { return leader_->isHeld(); }
     bool isMoving(double time) const override { return leader_->isMoving(time); }

@@ -68,9 +68,9 @@ void MotionSystem::Impl::beginPath(std::shared_ptr<Trajectory> path) {
 }
 
 /// The arm brakes, if it moves, and what is ordered from now on begins where it comes to rest.
-void MotionSystem::Impl::abandonPath() {
-    if (!isCoasting && detour == nullptr && !isStepping) path().hold(seconds());
-    if (detour != nullptr) detour->hold(seconds());
+void MotionSystem::Impl::abandonPath(StopKind kind) {
+    if (!isCoasting && detour == nullptr && !isStepping) path().hold(seconds(), kind);
+    if (detour != nullptr) detour->hold(seconds(), kind);
     const TimeNs rest = restTime();
     if (const Pose shift = shiftNow(); !(shift == Pose{})) spans.back().shift = shift;
     const MotionState state = stateAt(rest);
@@ -93,11 +93,11 @@ void MotionSystem::Impl::noteCleared(MoveId first) {
 }
 
 /// After the stop flag or the override has changed.
-void MotionSystem::Impl::holdOrRelease() {
+void MotionSystem::Impl::holdOrRelease(StopKind kind) {
     if (isHalted || isStepping) return;
     Trajectory& followed = detour != nullptr ? *detour : path();
     if (isHeld())
-        followed.hold(seconds());
+        followed.hold(seconds(), kind);
     else
         followed.release(seconds());
 }

@@ -123,14 +123,14 @@ Expected<MoveId, MotionError> MotionSystem::enqueue(const MoveCommand& command) 
     return s.registerMove(ordered->command, s.path().append(ordered->path, ordered->command, s.seconds()));
 }
 
-void MotionSystem::clear() {
+void MotionSystem::clear(StopKind kind) {
     Impl& s = *impl_;
     if (!s.level.queue.empty()) s.noteCleared(s.level.queue.front()->id);
     const bool hadMoves = !s.level.queue.empty();
     s.level.queue.clear();
     s.level.carried.clear();
     s.level.finished.clear();
-    if (hadMoves || s.isHalted || s.detour != nullptr) s.abandonPath();
+    if (hadMoves || s.isHalted || s.detour != nullptr) s.abandonPath(kind);
     s.noteMotion();
 }
 
@@ -238,11 +238,14 @@ bool MotionSystem::placeAt(const JointTarget& joints) {
     return true;
 }
 
-void MotionSystem::stop() {
+void MotionSystem::stop(StopKind kind) {
     Impl& s = *impl_;
-    if (std::exchange(s.isStopRequested, true)) return;
+    if (std::exchange(s.isStopRequested, true)) {
+        if (kind == StopKind::Quick && s.isMoving()) s.holdOrRelease(kind);
+        return;
+    }
     s.isStopAnnounced = false;
-    s.holdOrRelease();
+    s.holdOrRelease(kind);
     if (s.isMoving()) return;
     s.isStopAnnounced = true;
     s.report(MotionEventKind::Stopped, s.front());

@@ -10,6 +10,7 @@
 #include "runtime/motion/move_limits.h"
 #include "runtime/motion/path_modifier.h"
 #include "runtime/motion/planner.h"
+#include "runtime/motion/stop_kind.h"
 #include "runtime/motion/targets.h"
 #include "runtime/robot/kinematics.h"
 #include "runtime/robot/robot_model.h"
@@ -100,7 +101,7 @@ class MotionSystem {
 
     /// Throws away all moves not finished (ClearPath, program pointer moved). The arm must stand still: a
     /// moving arm is stopped on its path first and the rest is dropped when it is at rest.
-    void clear();
+    void clear(StopKind kind = StopKind::Normal);
     /// Brings the arm to these angles without motion (start of a simulation). Only when idle; false
     /// otherwise.
     bool placeAt(const JointTarget& joints);
@@ -109,6 +110,26 @@ class MotionSystem {
     bool leadTo(const JointTarget& joints, const JointTarget& speed, TimeNs period);
     /// leadTo() moves it.
     bool isLed() const;
+
+    // ---- a path that an earlier process left (--state) ----
+    /// Where the arm is on its path.
+    struct PlaceUnderWay {
+        MoveId move = 0; ///< the one in progress; in a zone the one whose point the curve passes
+        bool isInZone = false;
+        JointTarget from;   ///< where the move begins as programmed
+        double covered = 0; ///< mm of path since then; in a zone since its beginning
+    };
+    /// Nothing beside the path, when the arm is led, and when it stands at the beginning of a move.
+    std::optional<PlaceUnderWay> placeUnderWay() const;
+    struct OrderedUnderWay {
+        MoveId before = 0, move = 0;
+        JointTarget start; ///< the axes where `move` begins as programmed
+    };
+    /// Orders a move that the arm, idle and at rest, has covered a part of, and continues from there. `before`: the arm is in
+    /// the zone of the point between this move, which begins at `from` then, and the other. Null: it is on the move, outside
+    /// zones. Nothing, and nothing has changed, when the path does not lead through where the arm is.
+    std::optional<OrderedUnderWay> enqueueUnderWay(const JointTarget& from, double covered,
+                                                   const MoveCommand* before, const MoveCommand& command);
 
     // ---- away from the planned path ----
     /// The modifier acts from now on, after those that were added before.
@@ -140,8 +161,8 @@ class MotionSystem {
 
     // ---- stopping on the path ----
     /// Brakes on the path as fast as the limits allow; a Stopped event follows. No effect when stopped
-    /// already.
-    void stop();
+    /// already, but a quick stop shortens the braking of a normal one.
+    void stop(StopKind kind = StopKind::Normal);
     /// Motors off (emergency stop, power failure): each axis brakes for itself, which takes the arm off its path. start()
     /// brings it back, axis by axis, to where stop() would have left it, and continues from there.
     void halt();

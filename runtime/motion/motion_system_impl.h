@@ -116,13 +116,14 @@ struct MotionSystem::Impl {
     std::shared_ptr<Trajectory> newPath(const JointTarget& start, double earliest) const;
     void follow(std::shared_ptr<const Trajectory> what, TimeNs from);
     void beginPath(std::shared_ptr<Trajectory> path);
-    void abandonPath();
+    void abandonPath(StopKind kind);
     /// Tool and work object of the latest movement.
     FrameSetup framesNow() const {
         return level.path == nullptr || path().isEmpty() ? based(lastFrames) : path().framesAt(path().end());
     }
     void noteCleared(MoveId first);
-    void holdOrRelease();
+    void holdOrRelease(StopKind kind = StopKind::Normal);
+    std::optional<PathPlace> placeAfter(double covered, std::size_t moves) const;
     void coastNow();
     void resume();
     bool startDetour();

@@ -53,7 +53,7 @@ void MotionSystem::endTogether(const std::vector<MotionSystem*>& systems) {
         if (!s.isResting()) {
             if (!s.level.queue.empty()) s.noteCleared(s.level.queue.front()->id);
             s.level.queue.clear();
-            s.abandonPath();
+            s.abandonPath(StopKind::Normal);
             s.noteMotion();
             continue;
         }

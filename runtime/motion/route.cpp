@@ -53,6 +53,14 @@ double zoneBegin(const Corner& corner) {
     return begin;
 }
 
+/// Place where the last of them ends.
+double zoneEnd(const Corner& corner) {
+    double end = corner.end();
+    if (corner.turn.before > 0) end = std::max(end, corner.turn.end);
+    if (corner.external.before > 0) end = std::max(end, corner.external.end);
+    return end;
+}
+
 /// mm that a point covers a mm of route, on average between two places.
 template <class PointAt> double meanRate(double from, double to, const PointAt& pointAt) {
     constexpr int kParts = 8;
@@ -488,6 +496,11 @@ double Route::zoneEntry(std::size_t number) const {
         return l.end() - (l.zone.finep ? 0 : std::max({r.tcp, r.turn, r.external}));
     }
     return zoneBegin(c);
+}
+
+double Route::zoneExit(std::size_t number) const {
+    const Corner& c = corner(number);
+    return c.kind == CornerKind::None ? leg(number).end() : zoneEnd(c);
 }
 
 double Route::placeAfterStart(std::size_t number, double mm) const {

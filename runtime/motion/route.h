@@ -81,6 +81,8 @@ class Route {
     double legEnd(std::size_t number) const;
     /// Place where the largest zone at the end of a leg begins.
     double zoneEntry(std::size_t number) const;
+    /// Place where the largest zone ends; the point itself where it is not passed by on a curve.
+    double zoneExit(std::size_t number) const;
     /// Place on a leg, mm of TCP path as programmed after its start point. Inside a corner it lies on the curve.
     double placeAfterStart(std::size_t number, double mm) const;
     double placeBeforeEnd(std::size_t number, double mm) const;

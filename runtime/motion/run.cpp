@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace motion {
 
@@ -163,41 +164,51 @@ std::size_t Run::limitStretches(std::size_t from) {
         const RouteStretch& s = stretches[k];
         limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
+        limits_.back().ownSpeed = limits_.back().speed;
     }
     return widenDips(from);
 }
 
 /// Averaging in time would pass over a short place where an axis turns fast: around it, as far as the windows reach, the speed
-/// exceeds what the axis allows there by a limited share only. The first stretch that is changed, at most `from`.
+/// exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
+/// their place had lowered have their own speeds again. The first stretch whose speed has changed, at most `from`.
 std::size_t Run::widenDips(std::size_t from) {
     constexpr double kExcess = 1.25;
     const auto& stretches = route_.stretches();
     if (from >= limits_.size()) return from;
     const double halfWindow = 0.5 * (settings_.longWindow + settings_.shortWindow);
+    std::size_t restored = from;
+    while (restored > 0 && limits_[restored - 1].speed < limits_[restored - 1].ownSpeed)
+        --restored;
+    std::vector<double> before;
+    for (std::size_t i = restored; i < from; ++i)
+        before.push_back(std::exchange(limits_[i].speed, limits_[i].ownSpeed));
     double fastest = 0;
-    for (std::size_t i = from; i < limits_.size(); ++i)
+    for (std::size_t i = restored; i < limits_.size(); ++i)
         fastest = std::max(fastest, limits_[i].speed);
     std::size_t first = from;
     const auto lower = [&](std::size_t i, double speed) {
         if (limits_[i].speed <= speed) return;
         limits_[i].speed = speed;
-        first = std::min(first, i);
+        if (i < restored) first = std::min(first, i);
     };
     const auto widen = [&](std::size_t dip) {
         const double speed = kExcess * limits_[dip].axisSpeed;
-        const double reach = std::min(speed, fastest) * halfWindow;
+        const double reach = speed * halfWindow;
         for (std::size_t i = dip; i > 0 && stretches[i - 1].end > stretches[dip].begin - reach; --i)
             lower(i - 1, speed);
         for (std::size_t i = dip + 1; i < limits_.size() && stretches[i].begin < stretches[dip].end + reach;
              ++i)
             lower(i, speed);
     };
-    std::size_t dip = from;
+    std::size_t dip = restored;
     double fastestNear = fastest; // of all that a dip can reach
-    while (dip > 0 && stretches[dip - 1].end > stretches[from].begin - fastest * halfWindow)
+    while (dip > 0 && stretches[dip - 1].end > stretches[restored].begin - fastest * halfWindow)
         fastestNear = std::max(fastestNear, limits_[--dip].speed);
     for (; dip < limits_.size(); ++dip)
         if (kExcess * limits_[dip].axisSpeed < fastestNear) widen(dip);
+    for (std::size_t i = restored; i < from; ++i)
+        if (limits_[i].speed != before[i - restored]) return std::min(first, i);
     return first;
 }
 
@@ -392,6 +403,8 @@ void Run::plan(double now, double speedShare) {
         changed_ = 0;
     }
     isBraking_ = false;
+    if (course_.isQuick()) // it is executed to its end
+        course_ = course_.continued(now, settings_.longWindow, settings_.shortWindow);
     planForward(now);
 }
 
@@ -415,7 +428,8 @@ template <class Step> void Run::brakeFrom(const CourseState& state, Step step) c
     }
 }
 
-void Run::brake(double now) {
+void Run::brake(double now, StopKind kind) {
+    if (optimal_ && isBraking_) return; // as fast as it can already
     decision_.reset();
     isBraking_ = true;
     if (now <= start_) { // it has not moved
@@ -425,6 +439,7 @@ void Run::brake(double now) {
     if (optimal_) {
         optimal_->brake(course_, now);
     } else {
+        if (kind == StopKind::Quick) course_.dropLongWindow(now);
         const CourseState state = course_.plannedAt(now);
         course_.cutAfter(now);
         brakeFrom(state, [this](double place, double speed) { course_.moveTo(place, speed); });

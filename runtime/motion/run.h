@@ -7,6 +7,7 @@
 #include "runtime/motion/optimal_plan.h"
 #include "runtime/motion/planner.h"
 #include "runtime/motion/route.h"
+#include "runtime/motion/stop_kind.h"
 #include "runtime/motion/stretch_limits.h"
 #include "runtime/robot/dynamics.h"
 
@@ -47,8 +48,8 @@ class Run {
     /// From `now` on no faster than this.
     void limitSpeeds(double now, const SpeedLimits& most);
     /// Replans from `now` on: brakes as fast as the limits allow and rests there.
-    void brake(double now);
-    /// The place where brake() would let the arm come to rest.
+    void brake(double now, StopKind kind);
+    /// The place where a normal brake() would let the arm come to rest.
     double restPlace(double now) const;
     /// At rest at a place since `time`.
     void standAt(double time, double place);

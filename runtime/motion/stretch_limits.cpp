@@ -44,10 +44,13 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     }
     l.speed = std::min(l.speed, l.axisSpeed);
     if (most.worldAcceleration < kUnlimited) {
-        // Along and across the path together: each takes its share.
+        // Along and across the path together: across it at most the same share as along it; along it what the highest
+        // speed leaves, all on a straight line.
         constexpr double kShare = 0.7071;
-        add(s.tcpRate, 0, kShare * most.worldAcceleration);
         l.bendSquare = std::min(l.bendSquare, atMost(kShare * most.worldAcceleration, s.curvature));
+        const double square = l.speed < 1e100 ? std::min(l.speed * l.speed, l.bendSquare) : l.bendSquare;
+        const double across = std::min(square * std::abs(s.curvature) / most.worldAcceleration, kShare);
+        add(s.tcpRate, 0, std::sqrt(1 - across * across) * most.worldAcceleration);
     }
     l.gain = atMost(most.pathAcceleration, s.tcpRate);
     l.drop = atMost(most.pathDeceleration, s.tcpRate);

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
+constexpr double kMakingUp = 0.03;   // s, for what a run has covered before it was ordered
+constexpr double kSettling =
+    0.044; // s from the release of the program at a stop point to standstill, as measured
 
 /// When the course, which comes to rest, has at most this share of its speed at `from`.
 double slowTime(const Course& course, double from, double share) {
@@ -223,6 +226,8 @@ Trajectory::Appended Trajectory::appendRun(std::unique_ptr<Run> run,
     entry.path = path;
     entries_.push_back(std::move(entry));
     schedule(count() - 1, now, -std::numeric_limits<double>::infinity());
+    Entry& added = entries_.back();
+    if (added.isScheduled && pause == 0 && added.run->start() < now) added.late = added.run->course().at(now);
     return {{count() - 1, 0}, false, false};
 }
 
@@ -232,18 +237,28 @@ void Trajectory::closeLast() {
 
 // ---- Time ----
 
-/// When a run begins if nothing holds the arm; nothing while the run before does not come to its end.
+/// When a run begins if nothing holds the arm; nothing while the run before does not come to its end. A run that is known when the
+/// stop point before it is reached overlaps with the end of the motion there; one that is ordered when the arm stands begins after
+/// the delay. In between the time from the order to the beginning changes evenly (docs/motion.md).
 std::optional<double> Trajectory::startAfter(std::size_t run) const {
-    const double ordered = entry(run).ordered;
-    if (run == first_) return std::max(ordered + options_.startDelay, earliest_);
+    const Entry& e = entry(run);
+    const double delay = e.pause > 0 ? 0 : options_.startDelay;
+    if (run == first_) return std::max(e.ordered + delay, earliest_);
     const auto reached = stopTime(run - 1);
     if (!reached) return {};
-    if (ordered > *reached + kSameMoment) return ordered + options_.startDelay;
-    if (entry(run).pause > 0 || entry(run - 1).pause > 0 || entry(run - 1).stop.standTime > 0) return reached;
-    const Course& before = runAt(run - 1).course();
-    const double overlapping =
-        std::max(courseTime(run - 1, before.endPlace() - options_.overlap), before.plannedEnd());
-    return overlapping + (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
+    const Entry& before = entry(run - 1);
+    double atOnce = *reached;
+    double settled = kSettling;
+    if (e.pause == 0 && before.pause == 0 && before.stop.standTime == 0) {
+        const Course& course = before.run->course();
+        atOnce = std::max(courseTime(run - 1, course.endPlace() - options_.overlap), course.plannedEnd()) +
+                 (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
+        settled = std::max(settled, course.end() - *reached);
+    }
+    const double late = e.ordered - *reached;
+    if (late <= kSameMoment) return atOnce;
+    const double share = std::min(1.0, late / settled);
+    return e.ordered + (1 - share) * (atOnce - *reached) + share * delay;
 }
 
 /// Starts of the runs from this one on that have not begun. `earliest`: the arm has been released then.
@@ -297,16 +312,21 @@ void Trajectory::setSpeedLimits(double now, const SpeedLimits& most) {
     if (!isHeld_) schedule(active + (hasBegun(entry(active), now) ? 1 : 0), now, now);
 }
 
-void Trajectory::hold(double now) {
+void Trajectory::hold(double now, StopKind kind) {
     planChanged();
-    if (isHeld_) return;
+    if (isHeld_ && kind == StopKind::Normal) return;
     isHeld_ = true;
     if (entries_.empty()) return;
     const std::size_t active = activeAt(now);
     for (std::size_t i = active; i < count(); ++i) {
         Entry& e = entry(i);
         if (!hasBegun(e, now)) e.isScheduled = false;
-        if (e.isScheduled && e.pause == 0 && now < e.run->course().plannedEnd()) e.run->brake(now);
+        if (!e.isScheduled || e.pause > 0) continue;
+        const Course& course = e.run->course();
+        // What is left of a plan that has ended lies within the last mm, except in a stop on the path.
+        if (now < course.plannedEnd() ||
+            (kind == StopKind::Quick && e.run->isBraking() && now < course.end()))
+            e.run->brake(now, kind);
     }
 }
 
@@ -351,6 +371,20 @@ bool Trajectory::isMoving(double time) const {
     return false;
 }
 
+/// A run that is ordered at the moment at which the stop point before it is reached has begun a little earlier (startAfter()): it has
+/// covered some micrometres then. The arm makes up for them evenly, without a step of place or speed.
+CourseState Trajectory::stateOf(const Entry& entry, double time) {
+    CourseState state = entry.run->course().at(time);
+    const double share = (time - entry.ordered) / kMakingUp;
+    if (!(entry.late.s > 0) || share >= 1) return state;
+    const double u = std::max(0.0, share);
+    const double ofPlace = (2 * u - 3) * u * u + 1;
+    const double ofSpeed = ((u - 2) * u + 1) * u * kMakingUp;
+    state.s -= entry.late.s * ofPlace + entry.late.v * ofSpeed;
+    state.v -= (entry.late.s * 6 * (u - 1) * u / kMakingUp) + entry.late.v * ((3 * u - 4) * u + 1);
+    return state;
+}
+
 /// The runs before this one that have not settled at that time: mm left and speed, added.
 Trajectory::Tail Trajectory::tailBefore(std::size_t run, double time) const {
     Tail tail;
@@ -358,7 +392,7 @@ Trajectory::Tail Trajectory::tailBefore(std::size_t run, double time) const {
         if (entry(i).pause > 0) continue;
         const Course& course = runAt(i).course();
         if (time >= course.end()) break;
-        const CourseState state = course.at(time);
+        const CourseState state = stateOf(entry(i), time);
         tail.left += course.endPlace() - state.s;
         tail.speed += state.v;
     }
@@ -375,7 +409,7 @@ Trajectory::Moment Trajectory::at(double time) const {
         return result;
     }
     std::size_t run = activeAt(time);
-    const CourseState state = entry(run).isScheduled ? runAt(run).course().at(time) : CourseState{};
+    const CourseState state = entry(run).isScheduled ? stateOf(entry(run), time) : CourseState{};
     const Tail tail = tailBefore(run, time);
     result.speed = state.v + tail.speed;
     double place = state.s - tail.left;
@@ -531,6 +565,7 @@ void Trajectory::standAt(double now, const PathPlace& place) {
             e.isScheduled = false;
         } else if (i == place.run) {
             e.run->standAt(now, place.s);
+            e.late = {};
             e.isScheduled = true;
         } else if (e.isScheduled) {
             e.run->startAt(now);

@@ -76,8 +76,8 @@ class Trajectory {
     virtual void setSpeedShare(double now, double share);
     /// From `now` on no faster than this. Robots that follow this one obey from the next movement on.
     virtual void setSpeedLimits(double now, const SpeedLimits& most);
-    /// Brakes on the path and stays there until release().
-    virtual void hold(double now);
+    /// Brakes on the path and stays there until release(). A quick stop also brakes an arm faster that brakes already.
+    virtual void hold(double now, StopKind kind = StopKind::Normal);
     virtual void release(double now);
     virtual bool isHeld() const { return isHeld_; }
     virtual bool isMoving(double time) const;
@@ -142,14 +142,16 @@ class Trajectory {
     struct Entry {
         std::unique_ptr<Run> run;
         double ordered = 0;
-        double pause = 0;                       // s, of a run without a way; 0 = it has one
-        bool isScheduled = false;               // its start is known
-        StopPoint stop;                         // at its end
+        double pause = 0;         // s, of a run without a way; 0 = it has one
+        bool isScheduled = false; // its start is known
+        StopPoint stop;           // at its end
+        CourseState late;         // of the course when it was ordered after its start; 0 otherwise
         std::shared_ptr<const MotionPath> path; // of its first move
     };
     const Entry& entry(std::size_t run) const { return entries_[run - first_]; }
     Entry& entry(std::size_t run) { return entries_[run - first_]; }
     const Run& runAt(std::size_t run) const { return *entry(run).run; }
+    static CourseState stateOf(const Entry& entry, double time);
     std::size_t count() const { return first_ + entries_.size(); }
     static bool hasBegun(const Entry& entry, double time);
     std::size_t activeAt(double time) const;

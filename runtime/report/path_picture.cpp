@@ -78,13 +78,14 @@ void drawGrid(std::string& svg, const View& view, const Bounds& bounds) {
     svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='#fafafa' stroke='#999'/>\n",
                        view.left, view.top, kSize, kSize);
     svg += fmt::format("<text x='{}' y='{}' class='title'>{}</text>\n", view.left, view.top - 12, view.title);
-    for (double at = std::ceil(bounds.lowU / step) * step; at < bounds.lowU + bounds.span; at += step) {
+    // A sum with 0 is never -0.
+    for (double at = std::ceil(bounds.lowU / step) * step + 0.0; at < bounds.lowU + bounds.span; at += step) {
         const double x = view.left + (at - bounds.lowU) / bounds.span * kSize;
         svg += fmt::format("<line x1='{0:.1f}' y1='{1}' x2='{0:.1f}' y2='{2}' class='grid'/>"
                            "<text x='{0:.1f}' y='{3}' class='mid'>{4:g}</text>\n",
                            x, view.top, view.top + kSize, view.top + kSize + 14, at);
     }
-    for (double at = std::ceil(bounds.lowV / step) * step; at < bounds.lowV + bounds.span; at += step) {
+    for (double at = std::ceil(bounds.lowV / step) * step + 0.0; at < bounds.lowV + bounds.span; at += step) {
         const double y = view.top + kSize - (at - bounds.lowV) / bounds.span * kSize;
         svg += fmt::format("<line x1='{0}' y1='{1:.1f}' x2='{2}' y2='{1:.1f}' class='grid'/>"
                            "<text x='{3}' y='{4:.1f}' class='end'>{5:g}</text>\n",

@@ -45,7 +45,7 @@ class ContactWatch {
             lib::largestExternalTorque(controller_, motion_, axis) < percent_)
             return;
         hit_ = true;
-        motion_.breakOff(false);
+        motion_.breakOff(BreakOff::OnPath);
     }
 
     Controller& controller_;

@@ -4,6 +4,7 @@
 #include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/motion/corrections.h"
+#include "stdlib/impl/motion/lowest_speed.h"
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -193,6 +194,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     std::optional<motion::MotionError> error;
     if (const Status status = trackConveyor(task, *workObject, command)) return status;
     if (const Status status = followSensor(task, command)) return status;
+    warnOfNoSpeed(task, command);
     const Status status =
         owner.controller().motion(owner).order(owner, std::move(command), id, error, std::move(actions));
     if (status != kOk) return status;

@@ -59,9 +59,10 @@ Status checkStart(TaskCore* task, MotionDriver& driver) {
 
 extern "C" {
 
-/// The arm always brakes on its path as fast as its limits allow, with and without \Quick.
-Status rt_StopMove(TaskCore* task, bool, bool AllMotionTasks) {
-    forRobots(task, AllMotionTasks, [task](MotionDriver& driver) { driver.stopMove(originOf(task)); });
+Status rt_StopMove(TaskCore* task, bool Quick, bool AllMotionTasks) {
+    const auto kind = Quick ? motion::StopKind::Quick : motion::StopKind::Normal;
+    forRobots(task, AllMotionTasks,
+              [task, kind](MotionDriver& driver) { driver.stopMove(originOf(task), kind); });
     return kOk;
 }
 

@@ -16,7 +16,7 @@ void Search::begin() {
     if (isOver_) return;
     if (conditions_.activeLevel != value()) return watch();
     wasActive_ = true;
-    task_.controller().motion(task_).breakOff(false);
+    task_.controller().motion(task_).breakOff(BreakOff::OnPath);
 }
 
 void Search::watch() {
@@ -40,14 +40,14 @@ void Search::look() {
     if (!conditions_.stops) return;
     stopWatching();
     checkSpeed(driver);
-    driver.breakOff(conditions_.stiff);
+    driver.breakOff(conditions_.stop);
 }
 
 /// A stiff stop keeps the path up to 100 mm/s only (manual of SearchL, \Stop).
 void Search::checkSpeed(MotionDriver& driver) {
     constexpr double kStiffest = 100, kRounding = 0.5; // mm/s
     const double speed = driver.system().current().tcpSpeed;
-    if (conditions_.stiff && speed > kStiffest + kRounding)
+    if (conditions_.stop == BreakOff::Stiff && speed > kStiffest + kRounding)
         task_.report(EventId::StiffStopFast,
                      {"The search", formatDisplayNum(static_cast<float>(std::round(speed)))});
 }

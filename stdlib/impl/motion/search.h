@@ -14,8 +14,8 @@ struct SearchConditions {
     bool rising = true, falling = false;
     /// With this value at the beginning of the movement the search fails.
     std::optional<bool> activeLevel;
-    bool stops = false; ///< \Stop, \PStop, \SStop: the first hit ends the movement
-    bool stiff = false; ///< \Stop: each axis brakes for itself
+    bool stops = false;               ///< \Stop, \PStop, \SStop: the first hit ends the movement
+    BreakOff stop = BreakOff::OnPath; ///< \Stop: stiff, \SStop: quickly
 };
 
 /// The source of the value: a digital input or a persistent bool.

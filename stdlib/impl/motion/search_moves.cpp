@@ -32,7 +32,8 @@ lib::SearchConditions conditionsOf(const SearchSwitches& given) {
     if (given.lowLevel) conditions.activeLevel = false;
     if (!given.flanks && !given.posFlank && !given.negFlank && !given.lowLevel) conditions.activeLevel = true;
     conditions.stops = given.stop || given.pStop || given.sStop;
-    conditions.stiff = given.stop;
+    if (given.stop) conditions.stop = BreakOff::Stiff;
+    if (given.sStop) conditions.stop = BreakOff::QuicklyOnPath;
     return conditions;
 }
 

@@ -295,7 +295,8 @@ Status rt_TriggSpeed(TaskCore* task, Handle* TriggData, float Distance, bool Sta
     Status status = kOk;
     const SignalId output = lib::signalOf(task, *AOp, status);
     if (status != kOk) return status;
-    if (const IoResult result = io.check(*AOp, io.config(output).minValue, true); result != IoResult::Ok)
+    const double possible = std::clamp(0.0, io.config(output).minValue, io.config(output).maxValue);
+    if (const IoResult result = io.check(*AOp, possible, true); result != IoResult::Ok)
         return lib::ioStatus(task, result, *AOp);
     if (ErrDO != nullptr)
         if (const IoResult result = io.check(*ErrDO, 1, true); result != IoResult::Ok)

@@ -109,3 +109,42 @@ TEST_CASE("forgetting the past of a long course changes nothing that follows", "
     CHECK(after.v == Approx(before.v).margin(1e-6));
     CHECK(course.at(course.end()).s == Approx(5010).margin(1e-9));
 }
+
+TEST_CASE("without the long window the course continues without a step and stops sooner",
+          "[motion][course]") {
+    // Rule (decision 112): at 1000 mm/s and 5000 mm/s^2 a stop takes v^2 / 2a = 100 mm and v/2 times the windows.
+    constexpr double kNow = 0.5, kSpeed = 1000, kBraking = 5000;
+    const auto stopped = [](bool isQuick) {
+        Course course = trapezoid();
+        if (isQuick) course.dropLongWindow(kNow);
+        const double from = course.plannedAt(kNow).s;
+        course.cutAfter(kNow);
+        course.moveTo(from + kSpeed * kSpeed / (2 * kBraking), 0);
+        course.rest(0);
+        return course;
+    };
+    const double here = trapezoid().at(kNow).s;
+    CHECK(stopped(false).endPlace() - here == Approx(100 + kSpeed / 2 * (kLong + kShort)));
+    Course quick = stopped(true);
+    CHECK(quick.endPlace() - here == Approx(100 + kSpeed / 2 * kShort));
+    CHECK(quick.end() == Approx(kNow + kSpeed / kBraking + kShort));
+    CHECK(quick.at(kNow - 0.3).s == trapezoid().at(kNow - 0.3).s);
+    CHECK(quick.timeAt(50) == Approx(trapezoid().timeAt(50)));
+    constexpr double kStep = 1e-6;
+    for (double time = kNow - 0.01; time < quick.end() + 0.01; time += 0.0007) {
+        const CourseState before = quick.at(time - kStep);
+        const CourseState after = quick.at(time + kStep);
+        CHECK(after.s - before.s == Approx(2 * kStep * quick.at(time).v).margin(1e-4));
+        CHECK(std::abs(after.v - before.v) < 2 * kStep * 1.01 * kBraking + 1e-2);
+        if (time > kNow && time < quick.end())
+            CHECK(quick.at(quick.timeAt(quick.at(time).s)).s == Approx(quick.at(time).s));
+    }
+    // It is executed to its end, whatever follows, and can then be continued with both windows.
+    Course next = quick.continued(kNow + 0.01, kLong, kShort);
+    next.moveTo(600, 0.5);
+    for (double time = kNow - 0.1; time < quick.end(); time += 0.01)
+        CHECK(next.at(time).s == quick.at(time).s);
+    next.forgetBefore(quick.end());
+    CHECK(next.at(quick.end()).s == Approx(quick.endPlace()));
+    CHECK(next.at(quick.end() + 0.1).s > quick.endPlace());
+}

@@ -477,3 +477,27 @@ TEST_CASE("figures of a zone that are not distances are refused", "[motion][rand
         CHECK(system.isIdle());
     }
 }
+
+TEST_CASE("limits depend on the path, not on how it was ordered", "[motion][random]") {
+    // Rule (docs/motion.md, "Time"): around a place where an axis turns fast the speed is limited as far as the windows reach. A
+    // movement that cuts such a place off with its corner gives the surroundings their own speeds back: measuring all limits again
+    // changes nothing.
+    std::mt19937_64 random(311);
+    int compared = 0;
+    for (int n = 0; n < 300; ++n) {
+        MotionSystem system = smallRobot();
+        std::optional<MoveId> last;
+        for (const MoveCommand& command : randomProgram(random))
+            if (const auto id = system.enqueue(command)) last = *id;
+        if (!last) continue;
+        const auto asOrdered = system.reachTime(*last);
+        system.setSpeedLimits({});
+        const auto again = system.reachTime(*last);
+        CHECK(asOrdered.has_value() == again.has_value());
+        if (!asOrdered || !again) continue;
+        INFO("program " << n);
+        CHECK(std::abs(*asOrdered - *again) < 1000); // ns
+        ++compared;
+    }
+    CHECK(compared > 200);
+}

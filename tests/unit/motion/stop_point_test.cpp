@@ -1,0 +1,79 @@
+// Movements that follow a stop point (docs/motion.md, "Stops, waits and the program"; decision 115).
+
+#include "runtime/motion/motion_system.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace motion;
+
+namespace {
+
+constexpr TimeNs kMs = 1'000'000;
+
+MoveCommand lineBy(const MotionSystem& system, double mm) {
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.confL = false;
+    command.speed.vTcp = 500;
+    command.target = calcRobTarget(system.kinematics(), system.plannedEnd(), command.frames);
+    command.target.pose = robot::offs(command.target.pose, 0, mm, 0);
+    return command;
+}
+
+/// Two lines, the second one ordered that long after the program is released at the end of the first.
+struct TwoLines {
+    double seconds = 0;         ///< from the release to standstill at the end
+    std::vector<double> places; ///< mm, of the TCP from the order on, each 0.1 ms
+};
+
+TwoLines twoLines(TimeNs wait) {
+    MotionSystem system(robot::loadRobotModel("IRB 6640-180/2.55").value());
+    system.placeAt({{0, 10, 10, 0, 60, 0}, kNoExternalAxes});
+    const MoveId first = system.enqueue(lineBy(system, 100)).value();
+    while (!system.isReleased(first))
+        system.advanceTo(*system.nextEventTime());
+    const TimeNs released = system.now();
+    TwoLines result;
+    system.advanceTo(released + wait);
+    REQUIRE(system.enqueue(lineBy(system, 100)));
+    while (!system.isIdle() || system.isMoving()) {
+        system.advanceTo(system.now() + kMs / 10);
+        if (result.places.size() < 400) result.places.push_back(system.current().tcp.pos.y);
+    }
+    result.seconds = 1e-9 * static_cast<double>(system.now() - released);
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("the time of a movement after a stop point grows evenly with the time of its order",
+          "[motion][stop]") {
+    const double atOnce = twoLines(0).seconds;
+    // A little later costs that time and a little more: no step.
+    CHECK(twoLines(kMs / 10).seconds - atOnce == Approx(0.0002).margin(0.0002));
+    CHECK(twoLines(kMs).seconds - atOnce == Approx(0.0018).margin(0.0004));
+    // Ordered when the arm is at rest it begins 20 ms later; ordered at once when the last mm is left, about 10 ms before the release.
+    CHECK(twoLines(100 * kMs).seconds - atOnce == Approx(0.13).margin(0.007));
+    double before = atOnce;
+    for (TimeNs wait = 5 * kMs; wait <= 80 * kMs; wait += 5 * kMs) {
+        const double seconds = twoLines(wait).seconds;
+        CHECK(seconds - before > 0.004);
+        CHECK(seconds - before < 0.011);
+        before = seconds;
+    }
+}
+
+TEST_CASE("a movement after a stop point begins without a step of place or speed", "[motion][stop]") {
+    for (const TimeNs wait : {TimeNs{0}, kMs, 10 * kMs, 30 * kMs}) {
+        INFO("ordered after " << wait << " ns");
+        const std::vector<double> y = twoLines(wait).places;
+        double most = 0; // m/s^2
+        for (std::size_t i = 2; i < y.size(); ++i)
+            most = std::max(most, std::abs(y[i] - 2 * y[i - 1] + y[i - 2]) / 1e-8 / 1000);
+        CHECK(most < 10); // this arm accelerates its TCP by about as much
+    }
+}
