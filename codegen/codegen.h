@@ -56,6 +56,7 @@ struct CodegenOptions {
     /// The program is executed once from its beginning to its end: jit() leaves out the optimiser when few instructions can be
     /// executed at all, since it would take longer than they do.
     bool isExecutedOnce = false;
+    bool namesValues = false;     ///< LLVM values have names: for people who read them
     bool interpretsAll = false;   ///< every routine is interpreted, not only huge ones: for tests
     bool trustCache = true;       ///< off: objects are made again and replace those in the cache
     std::string cacheFolder = {}; ///< where emitObjects() keeps the objects of parts; empty: nowhere

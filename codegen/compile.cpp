@@ -182,6 +182,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
 std::unique_ptr<llvm::Module> emit(const ir::Module& module, const CodegenOptions& options,
                                    llvm::TargetMachine& machine, llvm::LLVMContext& context,
                                    std::string& error, const Part* part) {
+    context.setDiscardValueNames(!options.namesValues);
     std::unique_ptr<llvm::Module> result =
         ModuleEmitter(module, options, context, part)
             .run(machine.createDataLayout(), machine.getTargetTriple().str());

@@ -121,7 +121,15 @@ class InterpretedRoutine {
     }
     llvm::Constant* numbers(const std::vector<uint32_t>& values, const char* name) {
         if (values.empty()) return llvm::ConstantPointerNull::get(b_.getPtrTy());
-        return constant(llvm::ConstantDataArray::get(m_.context(), llvm::ArrayRef<uint32_t>(values)), name);
+        // As a text: LLVM writes that in one piece, and other arrays number by number.
+        const llvm::StringRef bytes(reinterpret_cast<const char*>(values.data()),
+                                    values.size() * sizeof(uint32_t));
+        auto* const global =
+            new llvm::GlobalVariable(m_.target(), llvm::ArrayType::get(b_.getInt8Ty(), bytes.size()), true,
+                                     llvm::GlobalValue::PrivateLinkage,
+                                     llvm::ConstantDataArray::getString(m_.context(), bytes, false), name);
+        global->setAlignment(llvm::Align(alignof(uint32_t)));
+        return global;
     }
 
     llvm::Constant* code() {

@@ -162,7 +162,9 @@ std::string emitLlvm(const ir::Module& module, const CodegenOptions& options, st
     auto machine = makeTargetMachine(options, error);
     if (!machine) return {};
     llvm::LLVMContext context;
-    auto compiled = compile(module, options, *machine, context, error);
+    CodegenOptions named = options;
+    named.namesValues = true;
+    auto compiled = compile(module, named, *machine, context, error);
     if (!compiled) return {};
     std::string text;
     llvm::raw_string_ostream stream(text);

@@ -58,7 +58,7 @@ std::vector<bool> retriedBlocks(const ir::Routine& routine, const ir::Cfg& cfg,
 
 bool entersRetried(const ir::Routine& routine, ir::BlockId block, const std::vector<bool>& retried) {
     if (retried.empty() || (retried[block] && isEmpty(routine, block))) return false;
-    const std::vector<ir::BlockId> next = ir::successors(routine, block);
+    const ir::BlockList next = ir::successors(routine, block);
     return std::any_of(next.begin(), next.end(), [&](ir::BlockId b) { return retried[b]; });
 }
 

@@ -28,7 +28,7 @@ void RoutineEmitter::run() {
     analyse();
     BasicBlock* entry = BasicBlock::Create(m_.context(), "entry", function_);
     for (const ir::Block& source : routine_.blocks)
-        blocks_.push_back(BasicBlock::Create(m_.context(), source.name, function_));
+        blocks_.push_back(BasicBlock::Create(m_.context(), routine_.blockNames[source.name], function_));
     b_.SetInsertPoint(entry);
     if (m_.debug()) b_.SetCurrentDebugLocation(m_.debug()->location(routine_, ir::kNone));
     allocate();
@@ -328,9 +328,10 @@ void RoutineEmitter::terminator(const ir::Inst& inst) {
 }
 
 void RoutineEmitter::switchOn(const ir::Inst& inst) {
+    const std::vector<ir::SwitchCase>& cases = routine_.caseLists[inst.index];
     auto* branch =
-        b_.CreateSwitch(operand(inst, 0), blockOf(inst.target[0]), static_cast<unsigned>(inst.cases.size()));
-    for (const ir::SwitchCase& entry : inst.cases)
+        b_.CreateSwitch(operand(inst, 0), blockOf(inst.target[0]), static_cast<unsigned>(cases.size()));
+    for (const ir::SwitchCase& entry : cases)
         branch->addCase(b_.getInt32(static_cast<uint32_t>(entry.value)), blockOf(entry.target));
 }
 

@@ -418,7 +418,7 @@ void WordWriter::end(const ir::Inst& inst) {
 }
 
 void WordWriter::switchOn(const ir::Inst& inst) {
-    std::vector<ir::SwitchCase> cases(inst.cases.begin(), inst.cases.end());
+    std::vector<ir::SwitchCase> cases = routine_.caseLists[inst.index];
     std::sort(cases.begin(), cases.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
     put(Op::Choose);
     operand(inst, 0);

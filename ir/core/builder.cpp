@@ -34,8 +34,16 @@ Inst makeFloat(TypeId type, double number) {
 
 } // namespace
 
-BlockId Builder::addBlock(std::string name) {
-    routine_.blocks.push_back({std::move(name), {}});
+uint32_t Routine::blockName(std::string_view wanted) {
+    constexpr size_t kSought = 64; // the compiler uses fewer; a text may have one for each block
+    for (size_t i = blockNames.size(); i-- > 0 && i + kSought >= blockNames.size();)
+        if (blockNames[i] == wanted) return static_cast<uint32_t>(i);
+    blockNames.emplace_back(wanted);
+    return static_cast<uint32_t>(blockNames.size() - 1);
+}
+
+BlockId Builder::addBlock(std::string_view name) {
+    routine_.blocks.push_back({routine_.blockName(name), {}});
     return static_cast<BlockId>(routine_.blocks.size() - 1);
 }
 
@@ -216,7 +224,8 @@ void Builder::condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse) {
 }
 void Builder::switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId otherwise) {
     Inst inst = make(Op::Switch, kVoid, {value});
-    inst.cases = std::move(cases);
+    inst.index = static_cast<uint32_t>(routine_.caseLists.size());
+    routine_.caseLists.push_back(std::move(cases));
     inst.target[0] = otherwise;
     emit(std::move(inst));
 }

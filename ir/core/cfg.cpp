@@ -66,8 +66,8 @@ void visit(const Cfg& cfg, BlockId root, std::vector<bool>& seen, std::vector<Bl
 
 } // namespace
 
-std::vector<BlockId> successors(const Routine& routine, BlockId block) {
-    std::vector<BlockId> result;
+BlockList successors(const Routine& routine, BlockId block) {
+    BlockList result;
     const std::vector<ValueId>& insts = routine.blocks[block].insts;
     if (insts.empty()) return result;
     const Inst& last = routine.insts[insts.back()];
@@ -77,7 +77,7 @@ std::vector<BlockId> successors(const Routine& routine, BlockId block) {
     case EndOp::CondBr: return {last.target[0], last.target[1]};
     case EndOp::Switch:
         result.push_back(last.target[0]);
-        for (const SwitchCase& entry : last.cases)
+        for (const SwitchCase& entry : routine.caseLists[last.index])
             result.push_back(entry.target);
         return result;
     case EndOp::Ret:

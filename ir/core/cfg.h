@@ -2,6 +2,7 @@
 // Control flow of a routine: successors, reverse postorder, dominators, loops.
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -9,17 +10,14 @@
 
 namespace ir {
 
-/// Blocks that the terminator of `block` names. Empty for a block without terminator.
-std::vector<BlockId> successors(const Routine& routine, BlockId block);
-
-/// True when the instruction can raise or unwind: column flags of the opcode table, less natives of class
-/// Const.
-bool mayRaise(const Module& module, const Inst& inst);
-
 /// A list of blocks; most have one or two, which lie in the object itself: routines may have millions of blocks.
 class BlockList {
   public:
     BlockList() = default;
+    BlockList(std::initializer_list<BlockId> blocks) {
+        for (const BlockId block : blocks)
+            push_back(block);
+    }
     BlockList(const BlockList& other) {
         for (const BlockId block : other)
             push_back(block);
@@ -68,6 +66,13 @@ class BlockList {
     };
     static_assert(sizeof(few_) == sizeof(uint64_t) && sizeof(many_) <= sizeof(uint64_t));
 };
+
+/// Blocks that the terminator of `block` names. Empty for a block without terminator.
+BlockList successors(const Routine& routine, BlockId block);
+
+/// True when the instruction can raise or unwind: column flags of the opcode table, less natives of class
+/// Const.
+bool mayRaise(const Module& module, const Inst& inst);
 
 struct Cfg {
     std::vector<BlockList> succs, preds;

@@ -99,53 +99,25 @@ struct SwitchCase {
     BlockId target = kNone;
 };
 
-/// The cases of a switch; other instructions, nearly all, pay one null pointer for them.
-class SwitchCases {
-  public:
-    SwitchCases() = default;
-    SwitchCases(std::vector<SwitchCase> cases)
-        : cases_(std::make_unique<std::vector<SwitchCase>>(std::move(cases))) {}
-    SwitchCases(const SwitchCases& other)
-        : cases_(other.cases_ ? std::make_unique<std::vector<SwitchCase>>(*other.cases_) : nullptr) {}
-    SwitchCases(SwitchCases&&) noexcept = default;
-    SwitchCases& operator=(SwitchCases other) noexcept {
-        cases_.swap(other.cases_);
-        return *this;
-    }
-    ~SwitchCases() = default;
-
-    size_t size() const { return cases_ ? cases_->size() : 0; }
-    const SwitchCase* begin() const { return cases_ ? cases_->data() : nullptr; }
-    const SwitchCase* end() const { return begin() + size(); }
-    SwitchCase* begin() { return cases_ ? cases_->data() : nullptr; }
-    SwitchCase* end() { return begin() + size(); }
-    const SwitchCase& operator[](size_t i) const { return (*cases_)[i]; }
-    void push_back(const SwitchCase& entry) {
-        if (!cases_) cases_ = std::make_unique<std::vector<SwitchCase>>();
-        cases_->push_back(entry);
-    }
-    void clear() { cases_.reset(); }
-
-  private:
-    std::unique_ptr<std::vector<SwitchCase>> cases_;
-};
-
+/// Programs have millions: fields that no instruction needs together share their place.
 struct Inst {
-    Op op{};
-    TypeId type = kVoid;    ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
-    OperandList operands;   ///< values
-    uint32_t index = kNone; ///< local, global, param, field, routine, native, statement or type-desc number
-    BlockId target[2] = {kNone, kNone};
-    SwitchCases cases; ///< Switch
     union {
         double number;       ///< Const: F32, F64
         int64_t integer = 0; ///< Const: Bool, Ptr, and integers, sign-extended
+        BlockId target[2];   ///< Br, CondBr, Switch; Br and Switch have one
+    };
+    OperandList operands; ///< values
+    union {
+        /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
+        int32_t extra = 0;
+        /// Local, global, param, field, routine, native, statement or type-desc number; Switch: of its cases
+        uint32_t index;
     };
     StmtId stmt = kNone; ///< statement it belongs to
-    /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
-    int32_t extra = 0;
+    TypeId type = kVoid; ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
+    Op op{};
 };
-static_assert(sizeof(Inst) <= 64); // programs have millions
+static_assert(sizeof(Inst) <= 40);
 
 // ---- Statements ------------------------------------------------------------------------------------------
 
@@ -195,7 +167,7 @@ struct Local {
     uint32_t dims = kNone; ///< then: the first of `rank` I32 locals that hold the dimensions
 };
 struct Block {
-    std::string name;
+    uint32_t name = 0;          ///< index into Routine::blockNames
     std::vector<ValueId> insts; ///< the last one is a terminator
 };
 
@@ -218,6 +190,8 @@ struct Routine {
     std::vector<Local> locals;
     PieceList<Inst> insts;
     PieceList<Block> blocks; ///< block 0 is the entry
+    std::vector<std::string> blockNames;
+    std::vector<std::vector<SwitchCase>> caseLists; ///< Switch: by Inst::index
     std::vector<Statement> statements;
     BlockId errorHandler = kNone;
     /// When one of them is not empty: numbers the handler takes, from any depth of calls and from interrupt routines; as
@@ -230,6 +204,19 @@ struct Routine {
     std::vector<uint32_t> sharedLocals;
     bool isDetachedHandler = false; ///< of another routine; `propagate` and `handlerend` act for that one
     BlockId undoHandler = kNone;    ///< the UNDO part; a `ret` without value in it continues unwinding
+
+    /// The number of a name for blocks; a name used not long ago keeps its number.
+    uint32_t blockName(std::string_view wanted);
+    /// Calls `visit` with each block (BlockId&) that the terminator goes to.
+    template <class Visit> void visitTargets(Inst& last, const Visit& visit) {
+        const bool isSwitch = last.op == Op::Switch, isBranch = last.op == Op::CondBr;
+        if (!isSwitch && !isBranch && last.op != Op::Br) return;
+        visit(last.target[0]);
+        if (isBranch) visit(last.target[1]);
+        if (!isSwitch) return;
+        for (SwitchCase& entry : caseLists[last.index])
+            visit(entry.target);
+    }
 };
 
 /// In Routine::errorFilter: every error, wherever it is raised; those of the routine and its calls.
@@ -406,7 +393,7 @@ class Builder {
 
     Module& module() { return module_; }
     Routine& routine() { return routine_; }
-    BlockId addBlock(std::string name);
+    BlockId addBlock(std::string_view name);
     void setBlock(BlockId block) { block_ = block; }
     BlockId block() const { return block_; }
     /// True when the current block already ends in a terminator.

@@ -2,6 +2,7 @@
 // conversions saturating. Results that are not finite are left alone: the program finds out when it gets there.
 
 #include <cmath>
+#include <utility>
 
 #include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
@@ -206,14 +207,12 @@ class Folder {
     bool branch(Inst& inst) {
         if ((inst.op != Op::CondBr && inst.op != Op::Switch) || !isConst(inst.operands[0])) return false;
         const int64_t value = valueOf(inst.operands[0]).integer;
-        BlockId target = inst.op == Op::CondBr && value == 0 ? inst.target[1] : inst.target[0];
-        for (const SwitchCase& entry : inst.cases)
-            if (entry.value == value) target = entry.target;
+        if (inst.op == Op::CondBr && value == 0) inst.target[0] = inst.target[1];
+        if (inst.op == Op::Switch)
+            for (const SwitchCase& entry : std::exchange(routine_.caseLists[inst.index], {}))
+                if (entry.value == value) inst.target[0] = entry.target;
         inst.op = Op::Br;
         inst.operands.clear();
-        inst.cases.clear();
-        inst.target[0] = target;
-        inst.target[1] = kNone;
         return true;
     }
 
@@ -239,7 +238,6 @@ class Folder {
         else
             inst.integer = out.integer;
         inst.extra = 0;
-        inst.index = kNone;
         return true;
     }
 

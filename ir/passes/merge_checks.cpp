@@ -193,10 +193,10 @@ class CheckMerger {
         undo.push_back(add(Op::Br, kVoid, {}, stmt));
         routine_.insts[undo.back()].target[0] = rest;
         routine_.blocks[b].insts = std::move(fast);
-        routine_.blocks.push_back(
-            {"finite", {insts.begin() + static_cast<std::ptrdiff_t>(region.end), insts.end()}});
+        routine_.blocks.push_back({routine_.blockName("finite"),
+                                   {insts.begin() + static_cast<std::ptrdiff_t>(region.end), insts.end()}});
         again_.push_back(rest + 1);
-        routine_.blocks.push_back({"again", std::move(undo)});
+        routine_.blocks.push_back({routine_.blockName("again"), std::move(undo)});
     }
 
     const Module& module_;

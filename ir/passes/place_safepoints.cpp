@@ -75,18 +75,16 @@ class Placer {
         routine_.blocks.push_back(std::move(routine_.blocks[0]));
         Inst jump = make(Op::Br, kVoid);
         jump.target[0] = moved;
-        routine_.blocks[0] = {"entry", {add(std::move(jump), kNone)}};
+        routine_.blocks[0] = {routine_.blockName("entry"), {add(std::move(jump), kNone)}};
     }
 
     /// Redirects jumps from `from` to `to`: of block `onlyIn`, or of every block when kNone.
     void retarget(BlockId from, BlockId to, BlockId onlyIn) {
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             if (onlyIn != kNone && onlyIn != b) continue;
-            Inst& last = routine_.insts[routine_.blocks[b].insts.back()];
-            for (BlockId& target : last.target)
+            routine_.visitTargets(routine_.insts[routine_.blocks[b].insts.back()], [&](BlockId& target) {
                 if (target == from) target = to;
-            for (SwitchCase& entry : last.cases)
-                if (entry.target == from) entry.target = to;
+            });
         }
     }
 
@@ -232,7 +230,8 @@ class Placer {
         std::vector<Edge> back;
         struct Visit {
             BlockId block;
-            std::vector<BlockId> next;
+            BlockList successors;
+            size_t visited = 0;
         };
         for (BlockId root = 0; root < states.size(); ++root) {
             if (states[root] != State::New || looks(root)) continue;
@@ -240,13 +239,13 @@ class Placer {
             states[root] = State::Open;
             while (!open.empty()) {
                 Visit& at = open.back();
-                if (at.next.empty()) {
+                if (at.visited == at.successors.size()) {
                     states[at.block] = State::Done;
                     open.pop_back();
                     continue;
                 }
-                const BlockId to = at.next.back();
-                at.next.pop_back();
+                ++at.visited;
+                const BlockId to = at.successors[at.successors.size() - at.visited];
                 if (looks(to)) continue;
                 if (states[to] == State::Open) back.push_back({at.block, to});
                 if (states[to] != State::New) continue;
@@ -271,7 +270,7 @@ class Placer {
         Inst jump = make(Op::Br, kVoid);
         jump.target[0] = edge.to;
         ValueId safepoint = add(makeSafepoint(leastCost()), stmt);
-        routine_.blocks.push_back({"back", {safepoint, add(std::move(jump), stmt)}});
+        routine_.blocks.push_back({routine_.blockName("back"), {safepoint, add(std::move(jump), stmt)}});
     }
 
     const Module& module_;

@@ -46,7 +46,6 @@ class Simplifier {
             if (last.op != Op::CondBr || last.target[0] != last.target[1]) continue;
             last.op = Op::Br;
             last.operands.clear();
-            last.target[1] = kNone;
         }
     }
 
@@ -55,11 +54,7 @@ class Simplifier {
             if (target != kNone) target = map(target);
         };
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
-            Inst& last = terminator(b);
-            apply(last.target[0]);
-            apply(last.target[1]);
-            for (SwitchCase& entry : last.cases)
-                apply(entry.target);
+            routine_.visitTargets(terminator(b), apply);
         }
         for (Statement& s : routine_.statements) {
             apply(s.start);

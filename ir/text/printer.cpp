@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "ir/core/op_info.h"
 #include "ir/text/names.h"
@@ -198,7 +199,7 @@ class RoutinePrinter {
     }
 
     void block(BlockId b) {
-        put(out_, "  b{} {}:\n", b, quotedText(routine_.blocks[b].name));
+        put(out_, "  b{} {}:\n", b, quotedText(routine_.blockNames[routine_.blocks[b].name]));
         StmtId current = kNone;
         for (ValueId id : routine_.blocks[b].insts) {
             const Inst& inst = routine_.insts[id];
@@ -279,8 +280,9 @@ class RoutinePrinter {
     void switchOn(const Inst& inst) {
         operands(inst);
         put(out_, ", b{} [", inst.target[0]);
-        for (size_t i = 0; i < inst.cases.size(); ++i)
-            put(out_, "{}{}: b{}", i ? ", " : "", inst.cases[i].value, inst.cases[i].target);
+        const char* separator = "";
+        for (const SwitchCase& entry : routine_.caseLists[inst.index])
+            put(out_, "{}{}: b{}", std::exchange(separator, ", "), entry.value, entry.target);
         put(out_, "]");
     }
 

@@ -114,10 +114,10 @@ bool RoutineParser::blockHeader() {
     if (!in_.block(id)) return false;
     if (id != routine_.blocks.size())
         return in_.failAt(where, fmt::format("block b{} is expected here", routine_.blocks.size()));
-    Block block;
-    if (in_.peek().kind == TokenKind::String && !in_.string(block.name)) return false;
+    std::string name;
+    if (in_.peek().kind == TokenKind::String && !in_.string(name)) return false;
     if (!in_.punct(':')) return false;
-    routine_.blocks.push_back(std::move(block));
+    routine_.blocks.push_back({routine_.blockName(name), {}});
     stmt_ = kNone;
     return in_.endOfLine();
 }
@@ -156,10 +156,12 @@ bool RoutineParser::call(Inst& inst, Fixup::Kind kind) {
 
 bool RoutineParser::switchOn(Inst& inst) {
     if (!in_.punct(',') || !in_.block(inst.target[0]) || !in_.punct('[')) return false;
+    inst.index = static_cast<uint32_t>(routine_.caseLists.size());
+    std::vector<SwitchCase>& cases = routine_.caseLists.emplace_back();
     while (!in_.isPunct(']')) {
         SwitchCase entry;
         if (!in_.signedInt(entry.value) || !in_.punct(':') || !in_.block(entry.target)) return false;
-        inst.cases.push_back(entry);
+        cases.push_back(entry);
         if (!in_.takePunct(',')) break;
     }
     return in_.punct(']');

@@ -199,7 +199,7 @@ void RoutineVerifier::typesOfEnd(const Inst& inst) {
     case EndOp::Switch: {
         want(inst, 0, kI32);
         std::vector<int32_t> values;
-        for (const SwitchCase& entry : inst.cases)
+        for (const SwitchCase& entry : routine_.caseLists[inst.index])
             values.push_back(entry.value);
         std::sort(values.begin(), values.end());
         if (std::adjacent_find(values.begin(), values.end()) != values.end())

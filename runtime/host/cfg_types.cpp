@@ -226,6 +226,60 @@ void addSingles(std::vector<CfgInstance>& instances, const MechanicalUnits& unit
     }
 }
 
+/// What a motion group needs besides its units; controllers number the planners and supervisions from 1.
+void addPlanning(std::vector<CfgInstance>& instances, std::size_t number, std::string_view type) {
+    const std::string planner = fmt::format("motion_planner_{}", number + 1);
+    const std::string supervision = fmt::format("rob{}", number + 1);
+    CfgInstance& instance = add(instances);
+    put(instance, "name", type == "MOTION_SUP" ? supervision : planner);
+    if (type == "MOTION_SUP") {
+        putFlag(instance, "path_col_detect_on", true);
+        putFlag(instance, "jog_col_detect_on", true);
+    } else if (type == "MOTION_PLANNER") {
+        put(instance, "use_motion_sup", supervision);
+        put(instance, "use_jog_parameters", planner);
+        putFlag(instance, "use_for_jogging", true);
+        putFlag(instance, "repos_installed", true);
+    }
+}
+
+void addMotionSystem(std::vector<CfgInstance>& instances) {
+    CfgInstance& instance = add(instances);
+    put(instance, "name", "system_1");
+    for (const char* place : {"cabinet", "robot"}) { // degrees Celsius
+        putNumber(instance, fmt::format("min_temp_ambient_{}", place), 5);
+        putNumber(instance, fmt::format("max_temp_ambient_{}", place), 45);
+    }
+}
+
+/// The settings that files of controllers have without a change by the user.
+void addSettings(std::vector<CfgInstance>& instances, const Controller& controller) {
+    const std::array settings = {
+        std::pair("SimulateMenu", 1),          std::pair("NoOfRetry", controller.settings().noOfRetry),
+        std::pair("ModalPayLoadMode", 1),      std::pair("StationaryPayLoadMode", 0),
+        std::pair("PayloadsInWristCoords", 0), std::pair("CollisionErrorHandling", 0)};
+    for (const auto& [name, value] : settings) {
+        CfgInstance& instance = add(instances);
+        put(instance, "Name", name);
+        putNumber(instance, "Value", value);
+    }
+}
+
+void addSystemParameters(std::vector<CfgInstance>& instances, const Controller& controller,
+                         std::string_view type) {
+    const MechanicalUnits& units = controller.units();
+    if (type == "MECHANICAL_UNIT_GROUP")
+        for (std::size_t i = 0; i < units.groups().size(); ++i)
+            addGroup(instances, units, i);
+    if (type == "CAB_TASKS")
+        for (const auto& task : controller.tasks())
+            addTask(instances, controller, *task);
+    if (type == "SYS_MISC") addSettings(instances, controller);
+    if (type == "RUN_MODE_SETTINGS")
+        for (const char* name : {"AutoToManual", "ManualToAuto"})
+            put(add(instances), "name", name);
+}
+
 } // namespace
 
 const CfgAttributeType* CfgType::find(std::string_view attribute) const {
@@ -252,14 +306,13 @@ std::vector<CfgInstance> impliedInstances(const Controller& controller, std::str
     std::vector<CfgInstance> instances;
     const MechanicalUnits& units = controller.units();
     const std::string type = upperCase(wanted);
-    if (sameName(domain, "SYS") && type == "MECHANICAL_UNIT_GROUP")
-        for (std::size_t i = 0; i < units.groups().size(); ++i)
-            addGroup(instances, units, i);
-    if (sameName(domain, "SYS") && type == "CAB_TASKS")
-        for (const auto& task : controller.tasks())
-            addTask(instances, controller, *task);
+    if (sameName(domain, "SYS")) addSystemParameters(instances, controller, type);
     if (sameName(domain, "EIO") && type == "EIO_ACCESS") addAccessLevels(instances);
     if (!sameName(domain, "MOC")) return instances;
+    if (type == "MOTION_SYSTEM") addMotionSystem(instances);
+    if (type == "MOTION_SUP" || type == "MOTION_PLANNER" || type == "JOG_PARAMETERS")
+        for (std::size_t i = 0; i < units.groups().size(); ++i)
+            addPlanning(instances, i, type);
     for (const auto& unit : units.all()) {
         if (type == "ARM" || type == "JOINT" || type == "TRANSMISSION")
             for (const Axis& axis : axesOf(units, *unit))

@@ -67,7 +67,11 @@ class Walk {
     std::string place(VolumePlace& place) {
         const bool atRoot = done_.size() < 2;
         const int folder = atRoot ? root_ : done_[done_.size() - 2].file.number();
-        if (folder < 0) return fmt::format("folder {} does not exist", done_[done_.size() - 2].name);
+        if (folder < 0) {
+            const auto missing = std::find_if(done_.begin(), done_.end(),
+                                              [](const Step& step) { return !step.file.isOpen(); });
+            return fmt::format("folder {} does not exist", missing->name);
+        }
         place.name = done_.empty() ? "." : done_.back().name;
         if (!atRoot)
             place.folder = std::move(done_[done_.size() - 2].file);

@@ -1,5 +1,6 @@
 """The event log (contract 18, 24, 26, 30, 41; facts 7)."""
 
+import re
 import urllib.parse
 
 from rws_client import read_xhtml
@@ -146,6 +147,26 @@ class EventLog(ServeCase):
         self.assertEqual(int(message["argc"]), len(message["argv"]))
         self.assertIn({"type": "string", "value": "T_ROB1"},
                       [{"type": each["type"], "value": each["value"]} for each in message["argv"]])
+
+    def test_arguments_of_the_program(self):
+        """Published clients find header and lines of ErrWrite by their places, argument 1 to 5; a line that is left out is empty."""
+        client = self.client(1, form="json")
+        found = lambda: [state for state in client.get("/rw/elog/8?lang=en").json()["_embedded"]["_state"]  # noqa: E731
+                         if state["title"] == "First warning"]
+        message = self.eventually(found)[0]
+        self.assertEqual([each["value"] for each in message["argv"]], ["First warning", "The text of it", "more of it", "", ""])
+
+    def test_arguments_as_xhtml(self):
+        """A published client takes each li of the list for a message, with its number at the end of the title, and the arguments from
+        the spans arg1, arg2 ..."""
+        for client in self.both():
+            self.write(client, 1)
+            page = client.get("/rw/elog/8?lang=en", headers={"Accept": "application/xhtml+xml;v=2.0"}).body.decode()
+            items = re.findall(r"<li ([^>]*)>", page)
+            self.assertTrue(items)
+            for item in items:
+                self.assertRegex(item, r'title="/rw/elog/8/\d+"')
+            self.assertIn('<span class="arg1">', page)
 
     def test_subscription(self):
         """Line 41: elog/0; an event has the number and a link, below 1 KiB."""

@@ -23,13 +23,14 @@ struct Row {
     std::string_view name, kind, chapter, status;
 };
 
-/// `manual:` in the `!@` lines above a declaration of the library.
-std::string_view chapterOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
+/// The value of a key such as `manual:` in the `!@` lines above a declaration of the library; "-" without it.
+std::string_view attributeOf(const rapid::sema::Module& module, const rapid::syntax::Node* decl,
+                             std::string_view key) {
     if (!decl) return "-";
     const std::string_view gap = rapid::syntax::gapBefore(*module.tree, decl->first);
-    const size_t at = gap.rfind("manual:");
+    const size_t at = gap.rfind(key);
     if (at == std::string_view::npos) return "-";
-    std::string_view rest = gap.substr(at + 7);
+    std::string_view rest = gap.substr(at + key.size());
     rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
     const size_t stop = std::min({rest.find("   "), rest.find('\n'), rest.size()});
     return rest.substr(0, stop);
@@ -42,11 +43,12 @@ std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
                         entry.chapter, entry.isImplemented() ? "implemented" : "declared only"});
     for (const rapid::sema::Module* module : program.predefinedModules) {
         for (const auto* type : module->types)
-            rows.push_back({type->name, "datatype", chapterOf(*module, type->decl), "implemented"});
+            rows.push_back(
+                {type->name, "datatype", attributeOf(*module, type->decl, "manual:"), "implemented"});
         for (const auto* data : module->data) {
             const bool constant = data->dataKind == rapid::syntax::DataKind::Const;
-            rows.push_back({data->name, constant ? "constant" : "systemdata", chapterOf(*module, data->decl),
-                            "implemented"});
+            rows.push_back({data->name, constant ? "constant" : "systemdata",
+                            attributeOf(*module, data->decl, "manual:"), "implemented"});
         }
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
@@ -140,6 +142,15 @@ const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, st
     return nullptr;
 }
 
+/// What the declaration belongs to, and how sure its form is.
+void printOrigin(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
+    const std::string_view option = attributeOf(module, decl, "option:");
+    if (option != "-") fmt::print("Option: {}.\n", option);
+    const std::string_view confidence = attributeOf(module, decl, "confidence:");
+    if (confidence == "medium") fmt::print("The form is not confirmed in every detail.\n");
+    if (confidence == "low") fmt::print("The form is not confirmed.\n");
+}
+
 /// Its kind, its state and its declaration.
 void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
     fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
@@ -148,6 +159,7 @@ void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
         const rapid::syntax::Node* decl = findDeclaration(*module, rapid::sema::foldName(row.name));
         if (!decl) continue;
         printLines(rapid::syntax::gapBefore(*module->tree, decl->first), documentationLine);
+        printOrigin(*module, decl);
         const rapid::SourceRange where = module->tree->range(*decl);
         printLines(module->tree->source->text().substr(where.begin, where.end - where.begin),
                    declarationLine);

@@ -32,6 +32,7 @@ void describe(const EventMessage& message, Entry& entry) {
     entry.value("tstamp", service::calendarText(message.calendarSeconds));
     entry.value("argc", fmt::format("{}", message.arguments.size()));
     entry.nestedName = "argv";
+    entry.isNestedOnlyInJson = true;
     for (std::size_t i = 0; i < message.arguments.size(); ++i) {
         const std::string name = fmt::format("arg{}", i + 1);
         entry.value(name, message.arguments[i]);

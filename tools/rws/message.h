@@ -71,6 +71,8 @@ struct Entry {
     /// Entries inside this one (attributes of a cfg instance); `nestedName` is their member in HAL JSON ("attrib").
     std::vector<Entry> nested;
     std::string nestedName;
+    bool isNestedOnlyInJson =
+        false; ///< where the spans of XHTML say the same, and clients take each li for an entry
 
     Entry& value(std::string name, std::string text) {
         values.emplace_back(std::move(name), std::move(text));

@@ -44,7 +44,7 @@ std::string listItem(const Entry& entry) {
         text += anchor(href, rel);
     for (const auto& [name, value] : entry.values)
         text += fmt::format(R"(<span class="{}">{}</span>)", xmlText(name), xmlText(value));
-    if (!entry.nestedName.empty()) {
+    if (!entry.nestedName.empty() && !entry.isNestedOnlyInJson) {
         text += "<ul>";
         for (const Entry& nested : entry.nested)
             text += listItem(nested);

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,30 @@ constexpr Time kSettling = 100 * kMillisecond;  // of the arm at the end of a mo
 constexpr Time kPeriod = 4 * kMillisecond;      // of the supervision
 constexpr double kBackoff = 2, kBackSpeed = 20; // mm, mm/s: away from what was hit
 
+/// Supervision as MOC.cfg has it; MotionSup works within it (2.6).
+struct Supervision {
+    bool isOn = true;
+    double level = 100, most = 300; ///< percent
+
+    double levelWith(double tuned) const { return std::min(level * tuned / 100, most); }
+};
+
+/// MOTION_SUP that the planner of a motion group names; controllers name them rob1, rob2 ...
+Supervision supervisionOf(const Controller& controller, std::size_t group) {
+    std::string name = fmt::format("rob{}", group + 1);
+    const std::string planner = fmt::format("motion_planner_{}", group + 1);
+    for (const auto* instance : controller.instances("MOC", "MOTION_PLANNER"))
+        if (sameName(instance->text("name"), planner)) name = instance->text("use_motion_sup", name);
+    Supervision supervision;
+    for (const auto* instance : controller.instances("MOC", "MOTION_SUP")) {
+        if (!sameName(instance->text("name"), name)) continue;
+        supervision.isOn = instance->flag("path_col_detect_on");
+        instance->number("path_col_detect_level", supervision.level);
+        instance->number("motion_sup_max_level", supervision.most);
+    }
+    return supervision;
+}
+
 /// A service of the motion group.
 class CollisionWatch {
   public:
@@ -29,6 +54,7 @@ class CollisionWatch {
     void look(Controller& controller, MotionDriver& motion) {
         if (std::exchange(motion_, &motion) == nullptr) {
             controller_ = &controller;
+            supervision_ = supervisionOf(controller, motion.group());
             motion.addListener([this](ArmChange news) { take(news); });
         }
         check();
@@ -64,11 +90,11 @@ class CollisionWatch {
     /// An arm that is at rest or already brakes does not collide any more.
     bool isHit(std::size_t& axis) {
         const auto& state = motion_->service<MotionState>();
-        if (!state.motionSupervision || allowed_ || isBacking_ || !motion_->system().isMoving() ||
-            motion_->isStopMoveActive())
+        if (!supervision_.isOn || !state.motionSupervision || allowed_ || isBacking_ ||
+            !motion_->system().isMoving() || motion_->isStopMoveActive())
             return false;
         return largestExternalTorque(*controller_, *motion_, axis) >=
-               kCollision * state.supervisionLevel / 100;
+               kCollision * supervision_.levelWith(state.supervisionLevel) / 100;
     }
 
     /// A torque counts when it lasts for a period: what a movement that begins wants is known by then.
@@ -93,6 +119,7 @@ class CollisionWatch {
 
     Controller* controller_ = nullptr;
     MotionDriver* motion_ = nullptr;
+    Supervision supervision_;
     bool allowed_ = false, backsOff_ = false, isBacking_ = false, isSuspicious_ = false;
     uint64_t orders_ = 0; // of allowContact
 };

@@ -7,6 +7,8 @@
 #include "stdlib_constants.h"
 #include "stdlib_natives.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 using namespace rt;
@@ -44,11 +46,12 @@ Status checkStart(TaskCore* task, MotionDriver& driver) {
         return lib::fail(task, err::ERR_PROGSTOP,
                          "the robot cannot start: the program of its task is stopped");
     if (const auto gap = driver.gapToPath(); gap && (gap->mm > kFarthest || gap->degrees > kMostTurned))
-        return lib::failWith(
+        return lib::fail(
             task, err::ERR_PATHDIST,
-            "the robot is {} mm and {} degrees from its path; at most 10 mm and 20 degrees are "
-            "allowed: move it back to where the path was interrupted before RestoPath",
-            gap->mm, gap->degrees);
+            fmt::format(
+                "the robot is {:.1f} mm and {:.1f} degrees from its path; at most 10 mm and 20 degrees are "
+                "allowed: move it back to where the path was interrupted before RestoPath",
+                gap->mm, gap->degrees));
     return kOk;
 }
 

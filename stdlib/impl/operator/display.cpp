@@ -35,16 +35,16 @@ Status rt_TPWrite(TaskCore* task, const String* String, const float* Num, const 
 Status rt_ErrWrite(TaskCore* task, bool W, bool I, const String* Header, const String* Reason,
                    const String* RL2, const String* RL3, const String* RL4) {
     std::string text;
-    std::vector<std::string> lines;
+    // Five arguments, of which a line that is left out is empty: published clients read the header and all lines by their places.
+    std::vector<std::string> arguments{std::string(Header->view())};
     for (const String* line : {Reason, RL2, RL3, RL4}) {
-        if (line == nullptr) continue;
-        lines.emplace_back(line->view());
-        text += (lines.size() > 1 ? "\n" : "") + lines.back();
+        arguments.emplace_back(line ? line->view() : std::string_view());
+        if (line) text += (line == Reason ? "" : "\n") + arguments.back();
     }
     const EventType type = W ? EventType::Warning : I ? EventType::Information : EventType::Error;
     const int number = W ? kWarnWriteEvent : I ? kInfoWriteEvent : kErrWriteEvent;
     Controller& controller = taskOf(task).controller();
-    controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task), lines);
+    controller.log().write(type, number, std::string(Header->view()), text, &taskOf(task), arguments);
     return kOk;
 }
 

@@ -21,7 +21,8 @@ constexpr std::size_t kPage = 20;
 /// The part of the list that a terminal shows.
 class Pages {
   public:
-    explicit Pages(Dialog& dialog) : dialog_(dialog) { filter({}); }
+    /// `standard` is the number of the item that an empty line takes, 0 for none; its page comes first.
+    Pages(Dialog& dialog, std::size_t standard) : dialog_(dialog), standard_(standard) { filter({}); }
 
     /// "+", "-" and "/text"; false for an answer that is something else.
     bool take(std::string_view answer) {
@@ -45,7 +46,10 @@ class Pages {
             if (!item.empty() && upperCase(item).find(part) != std::string::npos) found_.push_back(i + 1);
         }
         filtered_ = !part.empty();
-        first_ = 0;
+        const auto standard = std::find(found_.begin(), found_.end(), standard_);
+        first_ = standard == found_.end()
+                     ? 0
+                     : static_cast<std::size_t>(standard - found_.begin()) / kPage * kPage;
         show();
     }
     void show() {
@@ -54,6 +58,7 @@ class Pages {
                                found_.begin() + static_cast<std::ptrdiff_t>(end));
         dialog_.hint = "the number of an item";
         if (!dialog_.choices.empty()) dialog_.hint += ", and the text of a button after it";
+        if (standard_ > 0) dialog_.hint += "; Enter alone takes " + std::to_string(standard_);
         if (found_.size() > kPage || filtered_)
             dialog_.hint += "; " + std::to_string(dialog_.visible.size()) + " of " +
                             std::to_string(found_.size()) +
@@ -62,6 +67,7 @@ class Pages {
     }
 
     Dialog& dialog_;
+    std::size_t standard_;
     std::vector<std::size_t> found_; ///< numbers of the items that the filter lets through
     std::size_t first_ = 0;
     bool filtered_ = false;
@@ -131,7 +137,7 @@ Status rt_UIListView(TaskCore* task, float* result, float* Result, const String*
     if (!(standard >= 0 && standard <= static_cast<float>(ListItemsDim1)))
         return lib::failWith(task, err::ERR_ARGVALERR, "DefaultIndex is {}; the list has {} items",
                              static_cast<double>(standard), ListItemsDim1);
-    Pages pages(dialog);
+    Pages pages(dialog, static_cast<std::size_t>(standard));
     Chosen chosen;
     const auto accept = [&](const std::string& answer) {
         if (answer.empty() && standard > 0) return chosen = {}, Reply::yes();
