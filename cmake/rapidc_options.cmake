@@ -21,7 +21,6 @@ endif()
 
 option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(RAPIDC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
-option(RAPIDC_UNITY "Compile files of large libraries in groups: a full build takes less time, one after an edit more" OFF)
 option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)
 
 # The compiler need not be fast to the last percent: -O2 takes less time to build. Only the programs have to be fast, and
@@ -30,9 +29,7 @@ string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 string(REPLACE "-O3" "-O2" CMAKE_C_FLAGS_RELEASE "${CMAKE_C_FLAGS_RELEASE}")
 
 add_library(rapidc_options INTERFACE)
-# In a group of files, a local variable may have the name of a constant of another file.
-target_compile_options(rapidc_options INTERFACE -Wall -Wextra -Wpedantic -Werror
-  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>
+target_compile_options(rapidc_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror
   -ffp-contract=off $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp> $<$<CXX_COMPILER_ID:Clang>:-fcolor-diagnostics>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bugs 105329 and 105651: reports overlapping, endless or misplaced copies in std::string that cannot happen
@@ -42,6 +39,10 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # hints for the bitcode of natives, which clang makes in any case
   target_compile_options(rapidc_options INTERFACE -Wno-unknown-pragmas)
+endif()
+if(CMAKE_UNITY_BUILD)
+  # Local variables may have the name of a constant of another file.
+  target_compile_options(rapidc_options INTERFACE -Wno-shadow)
 endif()
 if(RAPIDC_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
@@ -80,10 +81,9 @@ endfunction()
 
 # rapidc_library(NAME DIRS dir... DEPS lib...): a static library of all .cpp files below the given
 # folders (relative to the current one). PRECOMPILED header...: besides the standard headers. PRECOMPILED_BY lib: takes over
-# those of another library. UNITY: with RAPIDC_UNITY, files are compiled in groups of eight, so names without linkage must
-# differ within the library.
+# those of another library.
 function(rapidc_library name)
-  cmake_parse_arguments(ARG "UNITY" "PRECOMPILED_BY" "DIRS;DEPS;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED_BY" "DIRS;DEPS;PRECOMPILED" ${ARGN})
   set(sources)
   foreach(dir ${ARG_DIRS})
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${dir}/*.cpp)
@@ -93,9 +93,6 @@ function(rapidc_library name)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
     target_link_libraries(${name} PRIVATE rapidc_options PUBLIC ${ARG_DEPS})
-    if(ARG_UNITY AND RAPIDC_UNITY)
-      set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    endif()
     if(ARG_PRECOMPILED)
       target_precompile_headers(${name} PRIVATE ${STANDARD_HEADERS} ${ARG_PRECOMPILED})
     else()
