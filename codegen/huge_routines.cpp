@@ -11,7 +11,7 @@ namespace {
 
 /// LLVM instructions of a routine from which on the optimiser and the register allocator cost too much: about 400 movement
 /// instructions. Their time grows with the square of the number of basic blocks.
-constexpr unsigned kHuge = 10'000;
+constexpr unsigned kHugeFunction = 10'000;
 
 /// Different constants that the constant pool of a function finds fast enough.
 constexpr size_t kFewConstants = 500;
@@ -63,7 +63,7 @@ class NumberTable {
 bool spareHugeRoutines(llvm::Module& module) {
     bool found = false;
     for (llvm::Function& function : module) {
-        if (function.getInstructionCount() <= kHuge) continue;
+        if (function.getInstructionCount() <= kHugeFunction) continue;
         function.addFnAttr(llvm::Attribute::OptimizeNone);
         function.addFnAttr(llvm::Attribute::NoInline);
         NumberTable(function, llvm::Type::getFloatTy(module.getContext())).moveToMemory();

@@ -26,7 +26,7 @@ unsigned usualLength(const llvm::Loop& loop, const llvm::BlockFrequencyInfo& fre
     return length;
 }
 
-bool isShort(llvm::Loop& loop, llvm::ScalarEvolution& scev, const llvm::BlockFrequencyInfo& frequencies) {
+bool isShortLoop(llvm::Loop& loop, llvm::ScalarEvolution& scev, const llvm::BlockFrequencyInfo& frequencies) {
     if (loop.isInnermost() || !loop.getLoopLatch() || loop.getSubLoops().size() > 1) return false;
     if (!loop.getSubLoops()[0]->isInnermost()) return false;
     const unsigned rounds = scev.getSmallConstantTripCount(&loop, loop.getLoopLatch());
@@ -42,7 +42,7 @@ llvm::PreservedAnalyses ShortLoops::run(llvm::Function& function, llvm::Function
     auto& scev = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
     auto& frequencies = analyses.getResult<llvm::BlockFrequencyAnalysis>(function);
     for (llvm::Loop* loop : loops.getLoopsInPreorder())
-        if (isShort(*loop, scev, frequencies)) llvm::addStringMetadataToLoop(loop, "llvm.loop.unroll.full");
+        if (isShortLoop(*loop, scev, frequencies)) llvm::addStringMetadataToLoop(loop, "llvm.loop.unroll.full");
     return llvm::PreservedAnalyses::all();
 }
 

@@ -24,7 +24,7 @@ using llvm::BasicBlock;
 using llvm::Instruction;
 using llvm::Value;
 
-constexpr unsigned kMostInstructions = 250; ///< of the loop, which is copied
+constexpr unsigned kLargestLoop = 250; ///< of the loop, which is copied
 constexpr size_t kMostStarts = 4;
 constexpr size_t kMostReached = 64;
 constexpr unsigned kStartBits = 22; ///< sums of a few of them are exact in F32
@@ -78,7 +78,7 @@ Starts startsOf(const llvm::Loop& loop) {
     Starts all;
     for (const BasicBlock* block : loop.blocks()) {
         length += static_cast<unsigned>(block->size());
-        if (length > kMostInstructions) return {};
+        if (length > kLargestLoop) return {};
         for (const Instruction& inst : *block) {
             if (!llvm::isa<llvm::FPToSIInst>(inst) || !isNumber(*inst.getOperand(0))) continue;
             Starts some = all;
@@ -89,9 +89,9 @@ Starts startsOf(const llvm::Loop& loop) {
 }
 
 /// Copies the loop; the original is entered when all starts are whole.
-class SecondForm {
+class WholeForm {
   public:
-    SecondForm(llvm::Loop& loop, const Starts& starts) : loop_(loop), starts_(starts) {}
+    WholeForm(llvm::Loop& loop, const Starts& starts) : loop_(loop), starts_(starts) {}
 
     /// The headers of the copies of the loop and of those inside.
     llvm::SmallPtrSet<BasicBlock*, 4> make() {
@@ -152,9 +152,9 @@ class SecondForm {
     llvm::ValueToValueMapTy map_;
 };
 
-class SecondForms {
+class WholeForms {
   public:
-    SecondForms(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
+    WholeForms(llvm::Function& function, llvm::FunctionAnalysisManager& analyses)
         : function_(function), analyses_(analyses) {}
 
     /// True when something has changed.
@@ -189,7 +189,7 @@ class SecondForms {
             llvm::formLCSSARecursively(*loop, dominators, &loops, &scev);
             const Starts starts = startsOf(*loop);
             if (starts.empty() || !loop->isLoopSimplifyForm() || !loop->isLCSSAForm(dominators)) continue;
-            const auto headers = SecondForm(*loop, starts).make();
+            const auto headers = WholeForm(*loop, starts).make();
             copies_.insert(headers.begin(), headers.end());
             return true;
         }
@@ -205,7 +205,7 @@ class SecondForms {
 
 llvm::PreservedAnalyses WholeStarts::run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
     if (analyses.getResult<llvm::LoopAnalysis>(function).empty()) return llvm::PreservedAnalyses::all();
-    if (!SecondForms(function, analyses).make()) return llvm::PreservedAnalyses::all();
+    if (!WholeForms(function, analyses).make()) return llvm::PreservedAnalyses::all();
     analyses.invalidate(function, llvm::PreservedAnalyses::none());
     IntegralValues().run(function, analyses);
     analyses.invalidate(function, llvm::PreservedAnalyses::none());

@@ -8,7 +8,7 @@ namespace rapid::edit {
 
 namespace {
 
-EditResult refuse(std::string problem) {
+EditResult unapplied(std::string problem) {
     return {{}, std::move(problem)};
 }
 
@@ -101,10 +101,10 @@ EditResult applyEditsToText(std::string_view text, std::span<const TextEdit> edi
 }
 
 EditResult applyEdits(const SourceFile& file, std::span<const TextEdit> edits) {
-    if (file.isBinary()) return refuse("the file is encrypted or binary and cannot be edited");
+    if (file.isBinary()) return unapplied("the file is encrypted or binary and cannot be edited");
     EditResult expected = applyEditsToText(file.text(), edits);
     if (!expected.ok()) return expected;
-    if (!isValidUtf8(expected.bytes)) return refuse("a replacement is not UTF-8");
+    if (!isValidUtf8(expected.bytes)) return unapplied("a replacement is not UTF-8");
     const bool latin1 = writesLatin1(file);
     std::string bytes = file.encoding() == Encoding::Utf8Bom ? "\xEF\xBB\xBF" : "";
     std::string_view unfit;
@@ -117,14 +117,14 @@ EditResult applyEdits(const SourceFile& file, std::span<const TextEdit> edits) {
                 unfit = appendLatin1(bytes, replacement);
         });
     if (!unfit.empty())
-        return refuse(
+        return unapplied(
             fmt::format("'{}' has no place in ISO 8859-1, the encoding of this file; write other words, or "
                         "save the file as UTF-8 (.modx, .sysx) first",
                         unfit));
     // For example, the last letter that distinguished ISO 8859-1 from UTF-8 may be gone.
     const SourceFile again(file.path(), bytes);
     if (again.isBinary() || again.text() != expected.bytes)
-        return refuse(
+        return unapplied(
             "the changed file would be taken for another encoding and read with other characters; save "
             "the file as UTF-8 (.modx, .sysx) first");
     return {std::move(bytes), {}};

@@ -28,7 +28,7 @@ bool isFolder(const fs::path& path) {
 }
 
 namespace {
-std::vector<fs::path> entries(const fs::path& folder, std::error_code& error) {
+std::vector<fs::path> sortedEntries(const fs::path& folder, std::error_code& error) {
     std::vector<fs::path> found;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
         found.push_back(it->path());
@@ -39,7 +39,7 @@ std::vector<fs::path> entries(const fs::path& folder, std::error_code& error) {
 
 std::vector<fs::path> entries(const fs::path& folder) {
     std::error_code ignored;
-    return entries(folder, ignored);
+    return sortedEntries(folder, ignored);
 }
 
 fs::path findEntry(const fs::path& folder, const std::string& name) {
@@ -73,7 +73,7 @@ bool FileReader::read(const fs::path& path, std::string& bytes) {
 
 std::vector<fs::path> FileReader::list(const fs::path& folder) {
     std::error_code error;
-    std::vector<fs::path> found = entries(folder, error);
+    std::vector<fs::path> found = sortedEntries(folder, error);
     if (error && !folder.empty() && unreadable_.insert(folder.string()).second)
         report(say::FileUnreadable, {folder.string(), error.message()});
     if (!texts_ || folder.empty()) return found;

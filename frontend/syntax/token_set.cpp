@@ -11,7 +11,7 @@ constexpr std::string_view kTexts[] = {
 #include "frontend/syntax/token_kinds.def"
 };
 
-constexpr std::string_view kNames[] = {
+constexpr std::string_view kTokenNames[] = {
 #define TOKEN(name, text) #name,
 #include "frontend/syntax/token_kinds.def"
 };
@@ -57,7 +57,7 @@ std::string_view tokenText(TokenKind kind) {
     return kTexts[static_cast<size_t>(kind)];
 }
 std::string_view tokenKindName(TokenKind kind) {
-    return kNames[static_cast<size_t>(kind)];
+    return kTokenNames[static_cast<size_t>(kind)];
 }
 
 TokenKind keywordKind(std::string_view word) {

@@ -41,7 +41,7 @@ void visitTest(const TestStmt& n, const Visit& visit) {
     all(n.defaultBody, visit);
 }
 
-constexpr std::string_view kNames[] = {
+constexpr std::string_view kNodeNames[] = {
 #define NODE(name, group) #name,
 #include "frontend/syntax/node_kinds.def"
 };
@@ -157,7 +157,7 @@ void forEachChild(const Node& node, const Visit& visit) {
 }
 
 std::string_view nodeKindName(NodeKind kind) {
-    return kNames[static_cast<size_t>(kind)];
+    return kNodeNames[static_cast<size_t>(kind)];
 }
 const Expr& bare(const Expr& e) {
     const Expr* inner = &e;

@@ -1,3 +1,4 @@
+#include "runtime/robot/angles.h"
 #include "runtime/host/axis_reader.h"
 
 #include "runtime/base/text_util.h"
@@ -11,7 +12,6 @@ namespace rt {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 constexpr double kMmPerMetre = 1000;
 constexpr int kFirstLogicalAxis = 7; // of the external axes
 
@@ -71,7 +71,7 @@ bool AxisReader::isRotating() const {
 motion::ExternalAxisModel AxisReader::limits() const {
     motion::ExternalAxisModel axis;
     axis.rotating = isRotating();
-    const double unit = axis.rotating ? kDegreesPerRadian : kMmPerMetre;
+    const double unit = axis.rotating ? robot::kDegreesPerRadian : kMmPerMetre;
     axis.maxSpeed = axis.rotating ? 180 : 1500;
     axis.maxAcceleration = axis.rotating ? 360 : 2500;
     double value = 0;
@@ -106,9 +106,9 @@ std::optional<robot::Pose> AxisReader::step() const {
         return result;
     };
     const robot::Pose twist{{value("length") * kMmPerMetre, 0, 0},
-                            robot::fromAxisAngle({1, 0, 0}, value("attitude") * kDegreesPerRadian)};
+                            robot::fromAxisAngle({1, 0, 0}, value("attitude") * robot::kDegreesPerRadian)};
     const robot::Pose turn{{},
-                           robot::fromAxisAngle({0, 0, 1}, value("theta_home_position") * kDegreesPerRadian)};
+                           robot::fromAxisAngle({0, 0, 1}, value("theta_home_position") * robot::kDegreesPerRadian)};
     return twist * turn * robot::Pose{{0, 0, value("offset_z") * kMmPerMetre}, {}};
 }
 

@@ -1,3 +1,4 @@
+#include "runtime/robot/angles.h"
 #include "runtime/host/cfg_types.h"
 
 #include "runtime/base/text_util.h"
@@ -18,7 +19,6 @@ std::string robotTypeName(const std::string& model, std::size_t group) {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 constexpr double kMillimetres = 1000;
 
 struct Row {
@@ -81,7 +81,7 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
     if (!unit.isRobot) {
         int number = 0;
         for (const MechanicalUnit::Axis& own : unit.own) {
-            const double factor = own.limits.rotating ? kDegreesPerRadian : kMillimetres;
+            const double factor = own.limits.rotating ? robot::kDegreesPerRadian : kMillimetres;
             axes.push_back({own.single.empty() ? fmt::format("{}_{}", unit.name, number + 1) : own.single,
                             7 + static_cast<int>(own.index), ++number, own.limits.rotating,
                             own.limits.lower / factor, own.limits.upper / factor});
@@ -92,7 +92,7 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
     const robot::Kinematics kinematics(model);
     for (std::size_t i = 0; i < kinematics.jointCount(); ++i) {
         const int number = kinematics.axisNumber(i);
-        const double factor = kinematics.isLinear(i) ? kMillimetres : kDegreesPerRadian;
+        const double factor = kinematics.isLinear(i) ? kMillimetres : robot::kDegreesPerRadian;
         axes.push_back({fmt::format("rob{}_{}", unit.group + 1, number), number, number,
                         !kinematics.isLinear(i), model.lowerDeg[i] / factor, model.upperDeg[i] / factor});
     }

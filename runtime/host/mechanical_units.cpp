@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/axis_reader.h"
+#include "runtime/robot/angles.h"
 #include "runtime/robot/robot_model.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@ namespace rt {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 57.295779513082320876798154814105;
 constexpr const char* kFirstRobot = "ROB_1";
 constexpr std::size_t kUnnumbered = 99; // an axis whose place among the external axes is not known yet
 
@@ -24,8 +24,8 @@ void applyBounds(const std::vector<const CfgInstance*>& arms, std::size_t robot,
         for (std::size_t axis = 0; axis < model.lowerDeg.size(); ++axis) {
             if (!sameName(arm->text("name"), fmt::format("rob{}_{}", robot + 1, axis + 1))) continue;
             double bound = 0;
-            if (arm->number("upper_joint_bound", bound)) model.upperDeg[axis] = bound * kDegreesPerRadian;
-            if (arm->number("lower_joint_bound", bound)) model.lowerDeg[axis] = bound * kDegreesPerRadian;
+            if (arm->number("upper_joint_bound", bound)) model.upperDeg[axis] = bound * robot::kDegreesPerRadian;
+            if (arm->number("lower_joint_bound", bound)) model.lowerDeg[axis] = bound * robot::kDegreesPerRadian;
         }
     }
 }

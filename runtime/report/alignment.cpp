@@ -13,7 +13,7 @@ constexpr double kSpacing = 2;            // mm between places, at least
 constexpr std::size_t kMostCoarse = 2000; // places of one track, where each may belong to each
 constexpr std::size_t kMostFine = 100000; // where only those near the coarse pairing may
 
-enum Step : uint8_t { kBoth, kOnlyA, kOnlyB };
+enum Pairing : uint8_t { kBoth, kOnlyA, kOnlyB };
 
 using Places = std::vector<robot::Vec3>;
 
@@ -61,7 +61,7 @@ struct Band {
 /// The pairing within the band, from the end to the start.
 std::vector<Alignment::Pair> bestPairs(const Places& a, const Places& b, const Band& band) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    std::vector<std::vector<Step>> steps(a.size()); // to each pair
+    std::vector<std::vector<Pairing>> steps(a.size()); // to each pair
     std::vector<double> before, row;
     const auto sumBefore = [&](std::size_t i, std::size_t j) {
         const bool inside = i > 0 && j >= band.first[i - 1] && j <= band.last[i - 1];
@@ -83,7 +83,7 @@ std::vector<Alignment::Pair> bestPairs(const Places& a, const Places& b, const B
     std::vector<Alignment::Pair> pairs{{a.size() - 1, b.size() - 1}};
     while (pairs.back().a > 0 || pairs.back().b > 0) {
         auto [i, j] = pairs.back();
-        const Step step = steps[i][j - band.first[i]];
+        const Pairing step = steps[i][j - band.first[i]];
         if (step != kOnlyB && i > 0) --i;
         if (step != kOnlyA && j > 0) --j;
         if (i == pairs.back().a && j == pairs.back().b) break;

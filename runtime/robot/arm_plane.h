@@ -52,7 +52,7 @@ struct ArmPlane {
         if (!(forearm > 0)) return;
         sine = along / forearm;
         cosine = up / forearm;
-        angleDeg = std::atan2(sine, cosine) / trig::kDeg;
+        angleDeg = std::atan2(sine, cosine) / kDeg;
     }
 
     /// Distance of the point from axis 1 along the arm plane; negative: behind axis 1.
@@ -72,8 +72,8 @@ struct ArmPlane {
         target.radius = std::sqrt(inPlane);
         target.isArmFree = target.square < kFreeArm * kFreeArm;
         if (target.isArmFree) {
-            target.freeSine = std::sin(axis1Deg * trig::kDeg);
-            target.freeCosine = std::cos(axis1Deg * trig::kDeg);
+            target.freeSine = std::sin(axis1Deg * kDeg);
+            target.freeCosine = std::cos(axis1Deg * kDeg);
         }
         return true;
     }

@@ -36,7 +36,7 @@ class Delta final : public Mechanism {
 };
 
 Vec3 Delta::elbow(const Joints& joints, std::size_t arm) const {
-    const double angle = modelAngle(joints, arm) * trig::kDeg;
+    const double angle = modelAngle(joints, arm) * kDeg;
     const double out = geometry_.baseRadius - geometry_.platformRadius + geometry_.upperArm * std::cos(angle);
     return {out * kCosine[arm], out * kSine[arm], -geometry_.upperArm * std::sin(angle)};
 }
@@ -79,7 +79,7 @@ void Delta::inverseAll(const Pose& flange, const Joints&, double /*armAngleDeg*/
         if (!(std::fabs(along) <= inPlane * (1 + 1e-9)) || !(inPlane > 0)) return;
         // The elbow points outward: the smaller of the two angles.
         const double angle = std::atan2(-z, x) - std::acos(std::clamp(along / inPlane, -1.0, 1.0));
-        joints[arm] = withinLimits(axisAngle(std::remainder(angle / trig::kDeg, 360.0), arm), arm);
+        joints[arm] = withinLimits(axisAngle(std::remainder(angle / kDeg, 360.0), arm), arm);
     }
     joints[3] = axisAngle(std::remainder(turn, 360.0), 3);
     out.add(joints);
@@ -94,11 +94,11 @@ Singularity Delta::singularity(const Joints& joints) const {
     centre.z += geometry_.flangeDown;
     Singularity result;
     for (std::size_t arm = 0; arm < 3; ++arm) {
-        const double angle = modelAngle(joints, arm) * trig::kDeg;
+        const double angle = modelAngle(joints, arm) * kDeg;
         const double out = std::cos(angle);
         const Vec3 link{out * kCosine[arm], out * kSine[arm], -std::sin(angle)};
         const Vec3 rod = centre - elbow(joints, arm);
-        const double bend = std::atan2(norm(cross(link, rod)), dot(link, rod)) / trig::kDeg;
+        const double bend = std::atan2(norm(cross(link, rod)), dot(link, rod)) / kDeg;
         result.elbowDeg = std::min({result.elbowDeg, bend, 180.0 - bend});
     }
     return result;
@@ -118,7 +118,7 @@ JacobianMatrix Delta::jacobian(const Joints& joints) const {
             a[arm][0] = rod.x;
             a[arm][1] = rod.y;
             a[arm][2] = rod.z;
-            const double angle = modelAngle(joints, arm) * trig::kDeg;
+            const double angle = modelAngle(joints, arm) * kDeg;
             const Vec3 speed{-std::sin(angle) * kCosine[arm], -std::sin(angle) * kSine[arm],
                              -std::cos(angle)};
             b[arm] = arm == moved ? dot(rod, speed) * geometry_.upperArm * signs_[arm] : 0;

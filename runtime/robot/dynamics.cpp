@@ -1,3 +1,4 @@
+#include "runtime/robot/angles.h"
 #include "runtime/robot/dynamics.h"
 
 #include "runtime/robot/robot_model.h"
@@ -10,7 +11,6 @@ namespace robot {
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// Seconds from rest to full speed, of the small and the large robot that were measured.
 struct RiseTime {

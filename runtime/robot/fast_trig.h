@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
+
+#include "runtime/robot/angles.h"
 
 namespace robot::trig {
 
-inline constexpr double kDeg = std::numbers::pi / 180.0;
 /// Adding and subtracting this rounds a double below 2^51 to the nearest integer.
 inline constexpr double kRounder = 6755399441055744.0;
 

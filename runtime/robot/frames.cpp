@@ -1,5 +1,6 @@
 // Arithmetic of frames that is too long to be inline.
 
+#include "runtime/robot/angles.h"
 #include "runtime/robot/frames.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 namespace robot {
 
 namespace {
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 struct HalfAngle {
     double cosine, sine;

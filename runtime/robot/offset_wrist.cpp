@@ -347,7 +347,7 @@ bool OffsetWrist::inverseContinue(const Pose& flange, const Joints& seed, double
     const Target target = takeApart(flange, seed);
     if (!(dot(target.foot, target.foot) < 1e12) || !std::isfinite(target.axis1Deg)) return false;
     const int branch = configuration(seed).cfx >> 1;
-    Sample a = sampleAt(target, branch, modelAngle(seed, 5) * trig::kDeg);
+    Sample a = sampleAt(target, branch, modelAngle(seed, 5) * kDeg);
     Sample b = sampleAt(target, branch, a.angle + 1e-4);
     double slope = 0;
     for (int n = 0; n < 12 && a.isValid && b.isValid; ++n) {

@@ -95,7 +95,7 @@ void ParallelRods::inverseAll(const Pose& flange, const Joints& seed, double /*a
 ConfData ParallelRods::configuration(const Joints& joints) const {
     const Posture p = postureOf(joints);
     int cfx = p.radius < -kFreeArm ? 4 : 0;
-    if (std::sin(p.etaDeg * trig::kDeg) < -kNoise * trig::kDeg) cfx |= 2;
+    if (std::sin(p.etaDeg * kDeg) < -kNoise * kDeg) cfx |= 2;
     return quarters(joints, cfx);
 }
 

@@ -149,7 +149,7 @@ class SevenAxes final : public Mechanism {
                 const Found* known = nullptr) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
     double stretchedDeg() const {
-        return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / trig::kDeg -
+        return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / kDeg -
                90.0;
     }
     void start(const Target& target, double tilt, int branch, Ends& ends) const;
@@ -232,7 +232,7 @@ double SevenAxes::armAngle(const Joints& joints) const {
     Vec3 x;
     Vec3 y;
     if (!(distance > 0) || !referenceAxes(offset * (1 / distance), x, y)) return 0;
-    return std::atan2(dot(y, chain.axes[3]), dot(x, chain.axes[3])) / trig::kDeg;
+    return std::atan2(dot(y, chain.axes[3]), dot(x, chain.axes[3])) / kDeg;
 }
 
 bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target) const {
@@ -250,7 +250,7 @@ bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target
     Vec3 x;
     Vec3 y;
     if (!referenceAxes(target.line, x, y)) return false;
-    const double angle = armAngleDeg * trig::kDeg;
+    const double angle = armAngleDeg * kDeg;
     target.half = x * std::cos(angle) + y * std::sin(angle);
     return std::isfinite(dot(target.half, target.x));
 }
@@ -258,7 +258,7 @@ bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target
 void SevenAxes::linesAt(const Target& target, const Ends& ends, Lines& l) const {
     double degrees[kUnknowns];
     for (std::size_t k = 0; k < kUnknowns; ++k)
-        degrees[k] = ends.t[k] / trig::kDeg;
+        degrees[k] = ends.t[k] / kDeg;
     double s[kUnknowns];
     double c[kUnknowns];
     trig::sinCosDeg(degrees, s, c);
@@ -347,8 +347,8 @@ void SevenAxes::toJoints(const Ends& ends, const Lines& l, Joints& out) const {
     const double x[3] = {dot(x3, l.x2), dot(l.f, x3), dot(l.y6, l.axis3)};
     double a[3];
     trig::atan2Deg(y, x, a);
-    const double model[7] = {ends.t[0] / trig::kDeg, ends.t[1] / trig::kDeg, a[0], a[1], a[2],
-                             ends.t[2] / trig::kDeg, ends.t[3] / trig::kDeg};
+    const double model[7] = {ends.t[0] / kDeg, ends.t[1] / kDeg, a[0], a[1], a[2],
+                             ends.t[2] / kDeg, ends.t[3] / kDeg};
     out = Joints::zeros(7);
     for (std::size_t k = 0; k < 7; ++k) {
         const std::size_t i = kOrder[k];
@@ -414,7 +414,7 @@ Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
     constexpr std::size_t kPlaces[4] = {0, 1, 4, 5};
     Ends ends;
     for (std::size_t k = 0; k < 4; ++k)
-        ends.t[k] = modelAngle(joints, kPlaces[k]) * trig::kDeg;
+        ends.t[k] = modelAngle(joints, kPlaces[k]) * kDeg;
     const double degrees[3] = {modelAngle(joints, 0), modelAngle(joints, 1), modelAngle(joints, 6)};
     double s[3];
     double c[3];
@@ -572,8 +572,8 @@ Singularity SevenAxes::singularity(const Joints& joints) const {
     result.elbowDeg = std::min(bend, 180.0 - bend);
     result.shoulderDeg = std::fabs(std::remainder(joints[1], 360.0));
     result.armAngleDeg =
-        std::atan2(norm(cross(line, reference)), std::fabs(dot(line, reference))) / trig::kDeg;
-    result.foldDeg = std::asin(std::min(std::fabs(side(joints)), 1.0)) / trig::kDeg;
+        std::atan2(norm(cross(line, reference)), std::fabs(dot(line, reference))) / kDeg;
+    result.foldDeg = std::asin(std::min(std::fabs(side(joints)), 1.0)) / kDeg;
     return result;
 }
 

@@ -81,7 +81,7 @@ ConfData SixAxes::configuration(const Joints& joints) const {
     ConfData conf{quarterRevolution(joints[0]), quarterRevolution(joints[3]), quarterRevolution(joints[5]),
                   0};
     if (plane_.radius(s[0], s[1], c[1]) < -kFreeArm) conf.cfx |= 4;
-    if (s[2] < -kNoise * trig::kDeg) conf.cfx |= 2;
+    if (s[2] < -kNoise * kDeg) conf.cfx |= 2;
     if (joints[4] < -kNoise) conf.cfx |= 1;
     return conf;
 }
@@ -101,10 +101,10 @@ Singularity SixAxes::singularity(const Joints& joints) const {
     if (wristOffset_ == 0) return result;
     // With the offset the wrist is not singular at axis 5 = 0 but where the determinant vanishes; divided by what arm
     // and elbow contribute it is the sine of axis 5 of an arm without the offset.
-    const double contribution = plane_.c2 * plane_.forearm * std::sin(result.elbowDeg * trig::kDeg) *
+    const double contribution = plane_.c2 * plane_.forearm * std::sin(result.elbowDeg * kDeg) *
                                 std::max(result.armMm, std::fabs(wristOffset_));
     const double sine = std::fabs(jacobianDeterminant(joints)) / std::max(contribution, 1e-9);
-    result.wristDeg = std::asin(std::min(sine, 1.0)) / trig::kDeg;
+    result.wristDeg = std::asin(std::min(sine, 1.0)) / kDeg;
     return result;
 }
 
@@ -232,13 +232,13 @@ SixAxes::Locked SixAxes::lockedAt(double axis1, const Pose& base_tcp, const Pose
     const double difference = std::atan2(rest.y - rest.z, rest.w + rest.x);
     Locked result;
     result.axis1 = axis1;
-    result.sum = (total + difference) / trig::kDeg;
-    result.spin = (total - difference) / trig::kDeg;
+    result.sum = (total + difference) / kDeg;
+    result.spin = (total - difference) / kDeg;
     const Quat level = arm * fromAxisAngle({0, 1, 0}, result.sum);
     const Quat turn = level * fromAxisAngle({0, 0, 1}, result.spin);
     const Vec3 offset = column(level, 0) * (isTurned ? wristOffset_ : -wristOffset_);
     result.centre = base_tcp.pos - rotate(turn, flange_tcp.pos) - column(turn, 2) * geometry_.c4 - offset;
-    const double angle = axis1 * trig::kDeg;
+    const double angle = axis1 * kDeg;
     result.sideways = result.centre.y * std::cos(angle) - result.centre.x * std::sin(angle) - geometry_.b;
     return result;
 }

@@ -46,7 +46,7 @@ void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, 
                                     double (&model)[6]) const {
     model[3] = signs_[3] * axis4 + shifts_[3];
     const double turn =
-        std::atan2(dot(arm.forearmZ(), target.flangeY), dot(arm.forearmY(), target.flangeY)) / trig::kDeg;
+        std::atan2(dot(arm.forearmZ(), target.flangeY), dot(arm.forearmY(), target.flangeY)) / kDeg;
     const bool isFolded = dot(arm.forearmX(), target.flangeZ) < 0; // axis 5 at 180 degrees
     model[5] = isFolded ? model[3] - turn : turn - model[3];
     model[5] = nearestTurn(model[5], signs_[5] * axis6 + shifts_[5]);

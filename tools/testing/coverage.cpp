@@ -9,14 +9,14 @@
 namespace testing {
 namespace {
 
-double percent(uint32_t part, uint32_t whole) {
-    return whole == 0 ? 100.0 : 100.0 * part / whole;
-}
-
 /// The same routine in several tasks: a row of the program each, but one in the file.
 using RoutineKey = std::tuple<std::string, uint32_t, std::string>;
 
 } // namespace
+
+double percent(uint32_t part, uint32_t whole) {
+    return whole == 0 ? 100.0 : 100.0 * part / whole;
+}
 
 Coverage::Coverage(const rt::ProgramDesc& program,
                    const std::function<bool(const rt::RoutineDesc&)>& isCounted) {

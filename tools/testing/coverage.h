@@ -45,6 +45,8 @@ class Coverage {
     std::vector<Row> rows_;
 };
 
+/// Percentage of the whole; 100 of nothing.
+double percent(uint32_t part, uint32_t whole);
 /// A trace file of lcov (.info).
 std::string lcovText(const std::vector<CoveredFile>& files);
 /// "covered 12 of 15 statements (80.0 %)", then a line for each file.

@@ -39,10 +39,6 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-double percent(uint32_t part, uint32_t whole) {
-    return whole == 0 ? 100.0 : 100.0 * part / whole;
-}
-
 std::string bar(uint32_t part, uint32_t whole) {
     return fmt::format("<span class=\"bar\"><span style=\"width:{:.0f}%\"></span></span>",
                        percent(part, whole));
