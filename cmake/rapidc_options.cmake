@@ -40,10 +40,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # hints for the bitcode of natives, which clang makes in any case
   target_compile_options(rapidc_options INTERFACE -Wno-unknown-pragmas)
 endif()
-if(CMAKE_UNITY_BUILD)
-  # Local variables may have the name of a constant of another file.
-  target_compile_options(rapidc_options INTERFACE -Wno-shadow)
-endif()
 if(RAPIDC_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
