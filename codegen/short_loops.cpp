@@ -42,7 +42,8 @@ llvm::PreservedAnalyses ShortLoops::run(llvm::Function& function, llvm::Function
     auto& scev = analyses.getResult<llvm::ScalarEvolutionAnalysis>(function);
     auto& frequencies = analyses.getResult<llvm::BlockFrequencyAnalysis>(function);
     for (llvm::Loop* loop : loops.getLoopsInPreorder())
-        if (isShortLoop(*loop, scev, frequencies)) llvm::addStringMetadataToLoop(loop, "llvm.loop.unroll.full");
+        if (isShortLoop(*loop, scev, frequencies))
+            llvm::addStringMetadataToLoop(loop, "llvm.loop.unroll.full");
     return llvm::PreservedAnalyses::all();
 }
 

@@ -171,6 +171,7 @@ struct Block {
     std::vector<ValueId> insts; ///< the last one is a terminator
 };
 
+// Size: all facts about a routine that passes and code generators read; data without behaviour.
 struct Routine {
     std::string name;        ///< linkage name, unique in the module, e.g. "T_ROB1/MainModule/main"
     std::string displayName; ///< what people see: "main"

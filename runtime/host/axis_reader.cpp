@@ -1,7 +1,7 @@
-#include "runtime/robot/angles.h"
 #include "runtime/host/axis_reader.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/robot/angles.h"
 
 #include <fmt/format.h>
 
@@ -107,8 +107,8 @@ std::optional<robot::Pose> AxisReader::step() const {
     };
     const robot::Pose twist{{value("length") * kMmPerMetre, 0, 0},
                             robot::fromAxisAngle({1, 0, 0}, value("attitude") * robot::kDegreesPerRadian)};
-    const robot::Pose turn{{},
-                           robot::fromAxisAngle({0, 0, 1}, value("theta_home_position") * robot::kDegreesPerRadian)};
+    const robot::Pose turn{
+        {}, robot::fromAxisAngle({0, 0, 1}, value("theta_home_position") * robot::kDegreesPerRadian)};
     return twist * turn * robot::Pose{{0, 0, value("offset_z") * kMmPerMetre}, {}};
 }
 

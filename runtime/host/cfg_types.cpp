@@ -1,4 +1,3 @@
-#include "runtime/robot/angles.h"
 #include "runtime/host/cfg_types.h"
 
 #include "runtime/base/text_util.h"
@@ -27,6 +26,7 @@ struct Row {
 constexpr Row kRows[] = {
 #define CFG_TYPE(domain, type, attributes) {domain, type, attributes},
 #include "runtime/host/cfg_types.def"
+#include "runtime/robot/angles.h"
 #undef CFG_TYPE
 };
 
@@ -226,7 +226,7 @@ void addSingles(std::vector<CfgInstance>& instances, const MechanicalUnits& unit
     }
 }
 
-/// What a motion group needs besides its units; controllers number the planners and supervisions from 1.
+/// The instances that a motion group needs besides its units; controllers number the planners and supervisions from 1.
 void addPlanning(std::vector<CfgInstance>& instances, std::size_t number, std::string_view type) {
     const std::string planner = fmt::format("motion_planner_{}", number + 1);
     const std::string supervision = fmt::format("rob{}", number + 1);

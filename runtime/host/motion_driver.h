@@ -173,7 +173,7 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;
         bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
     };
-    /// Where the arm was on the first of the moves, or in the zone between two.
+    /// The place of the arm on the first of the moves, or in the zone between two.
     struct EarlierPlace {
         std::optional<motion::MoveCommand> before; ///< in a zone: the move to the point
         bool isPassed = false;                     ///< that one is none of the unfinished moves any more

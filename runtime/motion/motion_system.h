@@ -112,14 +112,14 @@ class MotionSystem {
     bool isLed() const;
 
     // ---- a path that an earlier process left (--state) ----
-    /// Where the arm is on its path.
+    /// The place of the arm on its path.
     struct PlaceUnderWay {
         MoveId move = 0; ///< the one in progress; in a zone the one whose point the curve passes
         bool isInZone = false;
         JointTarget from;   ///< where the move begins as programmed
         double covered = 0; ///< mm of path since then; in a zone since its beginning
     };
-    /// Nothing beside the path, when the arm is led, and when it stands at the beginning of a move.
+    /// Nothing beside the path, when the arm is led, and when it is at the beginning of a move.
     std::optional<PlaceUnderWay> placeUnderWay() const;
     struct OrderedUnderWay {
         MoveId before = 0, move = 0;

@@ -238,7 +238,7 @@ void Trajectory::closeLast() {
 // ---- Time ----
 
 /// When a run begins if nothing holds the arm; nothing while the run before does not come to its end. A run that is known when the
-/// stop point before it is reached overlaps with the end of the motion there; one that is ordered when the arm stands begins after
+/// stop point before it is reached overlaps with the end of the motion there; one that is ordered when the arm is at rest begins after
 /// the delay. In between the time from the order to the beginning changes evenly (docs/motion.md).
 std::optional<double> Trajectory::startAfter(std::size_t run) const {
     const Entry& e = entry(run);
@@ -323,7 +323,7 @@ void Trajectory::hold(double now, StopKind kind) {
         if (!hasBegun(e, now)) e.isScheduled = false;
         if (!e.isScheduled || e.pause > 0) continue;
         const Course& course = e.run->course();
-        // What is left of a plan that has ended lies within the last mm, except in a stop on the path.
+        // The rest of a plan that has ended lies within the last mm, except in a stop on the path.
         if (now < course.plannedEnd() ||
             (kind == StopKind::Quick && e.run->isBraking() && now < course.end()))
             e.run->brake(now, kind);

@@ -1,6 +1,6 @@
-#include "runtime/robot/angles.h"
 #include "runtime/robot/dynamics.h"
 
+#include "runtime/robot/angles.h"
 #include "runtime/robot/robot_model.h"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 namespace robot {
 
 namespace {
-
 
 /// Seconds from rest to full speed, of the small and the large robot that were measured.
 struct RiseTime {

@@ -142,7 +142,7 @@ const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, st
     return nullptr;
 }
 
-/// What the declaration belongs to, and how sure its form is.
+/// Prints the option that the declaration belongs to, and how sure its form is.
 void printOrigin(const rapid::sema::Module& module, const rapid::syntax::Node* decl) {
     const std::string_view option = attributeOf(module, decl, "option:");
     if (option != "-") fmt::print("Option: {}.\n", option);

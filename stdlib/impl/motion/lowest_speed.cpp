@@ -16,7 +16,7 @@ constexpr double kLowest = 0.01; // mm/s, deg/s: as the timing of movements take
 constexpr double kNoWay = 0.1;   // mm, deg
 constexpr double kDegrees = 57.29577951308232;
 
-/// What a movement covers, straight from its beginning to its end.
+/// The lengths that a movement covers, straight from its beginning to its end.
 struct Ways {
     double mm = 0, degrees = 0;      ///< of the TCP, of its orientation
     double linear = 0, rotating = 0; ///< mm, deg of external axes
