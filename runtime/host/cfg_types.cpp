@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
+#include "runtime/robot/angles.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,6 @@ struct Row {
 constexpr Row kRows[] = {
 #define CFG_TYPE(domain, type, attributes) {domain, type, attributes},
 #include "runtime/host/cfg_types.def"
-#include "runtime/robot/angles.h"
 #undef CFG_TYPE
 };
 

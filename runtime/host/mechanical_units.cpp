@@ -24,8 +24,10 @@ void applyBounds(const std::vector<const CfgInstance*>& arms, std::size_t robot,
         for (std::size_t axis = 0; axis < model.lowerDeg.size(); ++axis) {
             if (!sameName(arm->text("name"), fmt::format("rob{}_{}", robot + 1, axis + 1))) continue;
             double bound = 0;
-            if (arm->number("upper_joint_bound", bound)) model.upperDeg[axis] = bound * robot::kDegreesPerRadian;
-            if (arm->number("lower_joint_bound", bound)) model.lowerDeg[axis] = bound * robot::kDegreesPerRadian;
+            if (arm->number("upper_joint_bound", bound))
+                model.upperDeg[axis] = bound * robot::kDegreesPerRadian;
+            if (arm->number("lower_joint_bound", bound))
+                model.lowerDeg[axis] = bound * robot::kDegreesPerRadian;
         }
     }
 }
