@@ -115,7 +115,7 @@ class InterpretedRoutine {
 
     // ---- tables ----
 
-    llvm::Constant* constant(llvm::Constant* value, const char* name) {
+    llvm::GlobalVariable* constant(llvm::Constant* value, const char* name) {
         return new llvm::GlobalVariable(m_.target(), value->getType(), true,
                                         llvm::GlobalValue::PrivateLinkage, value, name);
     }
@@ -124,10 +124,8 @@ class InterpretedRoutine {
         // As a text: LLVM writes that in one piece, and other arrays number by number.
         const llvm::StringRef bytes(reinterpret_cast<const char*>(values.data()),
                                     values.size() * sizeof(uint32_t));
-        auto* const global =
-            new llvm::GlobalVariable(m_.target(), llvm::ArrayType::get(b_.getInt8Ty(), bytes.size()), true,
-                                     llvm::GlobalValue::PrivateLinkage,
-                                     llvm::ConstantDataArray::getString(m_.context(), bytes, false), name);
+        llvm::GlobalVariable* const global =
+            constant(llvm::ConstantDataArray::getString(m_.context(), bytes, false), name);
         global->setAlignment(llvm::Align(alignof(uint32_t)));
         return global;
     }

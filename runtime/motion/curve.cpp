@@ -1,6 +1,7 @@
 // Lines and arcs of the TCP in the object frame.
 
 #include "runtime/motion/path.h"
+#include "runtime/robot/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kLeastDistance = 0.1; // mm between the points of a circle
 constexpr double kLeastAngle = 0.05;   // deg in the triangle of the three points; less is a line
 constexpr double kLeastTwist = 1.0;    // deg; below, both ways of twisting are the same
@@ -27,7 +27,7 @@ MotionError circleError(MotionErrorKind kind, double value, const Vec3& position
 double angleAt(const Vec3& corner, const Vec3& a, const Vec3& b) {
     const Vec3 u = a - corner;
     const Vec3 v = b - corner;
-    return std::atan2(norm(cross(u, v)), dot(u, v)) / kDeg;
+    return std::atan2(norm(cross(u, v)), dot(u, v)) / robot::kDeg;
 }
 
 } // namespace
@@ -38,7 +38,7 @@ CartesianCurve CartesianCurve::line(const Pose& start, const Pose& end) {
     curve.end_ = end;
     curve.length_ = norm(end.pos - start.pos);
     curve.twist_ = robot::rotationVector(conjugate(start.rot) * end.rot);
-    curve.rotationDeg_ = norm(curve.twist_) / kDeg;
+    curve.rotationDeg_ = norm(curve.twist_) / robot::kDeg;
     return curve;
 }
 
@@ -73,14 +73,14 @@ Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, con
     const auto angleOf = [&](const Vec3& point) {
         const Vec3 spoke = point - curve.centre_;
         const double raw =
-            std::atan2(dot(cross(curve.spoke_, spoke), curve.axis_), dot(curve.spoke_, spoke)) / kDeg;
+            std::atan2(dot(cross(curve.spoke_, spoke), curve.axis_), dot(curve.spoke_, spoke)) / robot::kDeg;
         return raw < 0 ? raw + 360 : raw;
     };
     curve.sweepDeg_ = angleOf(end.pos);
     if (curve.sweepDeg_ > kLargestSweep) {
         return Unexpected{circleError(MotionErrorKind::CircleTooLarge, curve.sweepDeg_, end.pos)};
     }
-    curve.length_ = curve.radius_ * curve.sweepDeg_ * kDeg;
+    curve.length_ = curve.radius_ * curve.sweepDeg_ * robot::kDeg;
 
     if (orientation == CircleOrientation::PathFrame)
         curve.twistOnCircle(via, angleOf(via.pos));
@@ -90,7 +90,7 @@ Expected<CartesianCurve, MotionError> CartesianCurve::arc(const Pose& start, con
         curve.viaShare_ = angleOf(via.pos) / curve.sweepDeg_;
         curve.rotationDeg_ =
             std::max(norm(curve.twist_) / curve.viaShare_, norm(curve.twistAfter_) / (1 - curve.viaShare_)) /
-            kDeg;
+            robot::kDeg;
     }
     return curve;
 }
@@ -102,7 +102,7 @@ void CartesianCurve::twistOnCircle(const Pose& via, double viaAngle) {
     const Vec3 shortTwist = robot::rotationVector(conjugate(carried) * end_.rot);
     twist_ = shortTwist;
     const double shortAngle = norm(shortTwist);
-    if (shortAngle > kLeastTwist * kDeg) {
+    if (shortAngle > kLeastTwist * robot::kDeg) {
         const Vec3 longTwist = shortTwist * (1 - 2 * std::numbers::pi / shortAngle);
         const double share = viaAngle / sweepDeg_;
         const Quat there = robot::fromAxisAngle(axis_, viaAngle) * start_.rot;
@@ -110,7 +110,7 @@ void CartesianCurve::twistOnCircle(const Pose& via, double viaAngle) {
         const double missLong = robot::angleBetween(robot::turnedBy(there, longTwist, share), via.rot);
         if (missLong < missShort - 1e-9) twist_ = longTwist;
     }
-    rotationDeg_ = norm(axis_ * (sweepDeg_ * kDeg) + rotate(start_.rot, twist_)) / kDeg;
+    rotationDeg_ = norm(axis_ * (sweepDeg_ * robot::kDeg) + rotate(start_.rot, twist_)) / robot::kDeg;
 }
 
 void CartesianCurve::twistInObject(const Pose& via, CircleOrientation orientation) {
@@ -119,7 +119,7 @@ void CartesianCurve::twistInObject(const Pose& via, CircleOrientation orientatio
     viaRot_ = via.rot;
     twist_ = robot::rotationVector(conjugate(start_.rot) * first);
     if (isThroughPoint) twistAfter_ = robot::rotationVector(conjugate(via.rot) * end_.rot);
-    rotationDeg_ = norm(twist_) / kDeg;
+    rotationDeg_ = norm(twist_) / robot::kDeg;
 }
 
 Quat CartesianCurve::orientationAt(double s) const {
@@ -153,8 +153,7 @@ void shareOut(const std::vector<PathTrigger>& triggers, double first, double sec
 /// How far along the arc from `start` a point of it lies, 0 to 1; more when it lies on the other part of the circle.
 double partAt(const CartesianCurve& arc, const Pose& start, const Pose& point) {
     const Vec3 from = start.pos - arc.centre(), via = point.pos - arc.centre();
-    constexpr double kDegrees = 57.29577951308232;
-    double angle = std::atan2(dot(arc.axis(), cross(from, via)), dot(from, via)) * kDegrees;
+    double angle = std::atan2(dot(arc.axis(), cross(from, via)), dot(from, via)) * robot::kDegreesPerRadian;
     if (angle <= 0) angle += 360;
     return angle / arc.sweepDeg();
 }

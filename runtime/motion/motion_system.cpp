@@ -221,9 +221,7 @@ std::optional<MotionSystem::PathGap> MotionSystem::gapToPath() const {
     };
     const Pose goal = tcp(s.pathStateNow());
     const Pose here = tcp(s.stateAt(s.now));
-    constexpr double kDegreesPerRadian = 57.295779513082323;
-    const double turn = 2 * std::acos(std::min(1.0, std::fabs(dot(goal.rot, here.rot))));
-    return PathGap{norm(goal.pos - here.pos), turn * kDegreesPerRadian};
+    return PathGap{norm(goal.pos - here.pos), robot::angleBetween(goal.rot, here.rot)};
 }
 
 void MotionSystem::setExternalAxis(std::size_t axis, const ExternalAxisModel& model) {

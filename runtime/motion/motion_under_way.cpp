@@ -93,7 +93,7 @@ std::optional<MotionSystem::OrderedUnderWay> MotionSystem::enqueueUnderWay(const
     return result;
 }
 
-/// On a path of one move, or in the corner of two; nothing when there is no such place.
+/// The place on a path of one move, or in the corner of two; empty when it would lie outside the move or the corner.
 std::optional<PathPlace> MotionSystem::Impl::placeAfter(double covered, std::size_t moves) const {
     const std::size_t run = path().firstRun();
     if (path().lastRun() != run || path().isPause(run) || !(covered > 0)) return {};

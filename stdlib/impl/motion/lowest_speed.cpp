@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kLowest = 0.01; // mm/s, deg/s: as the timing of movements takes it
 constexpr double kNoWay = 0.1;   // mm, deg
-constexpr double kDegrees = 57.29577951308232;
 
 /// The lengths that a movement covers, straight from its beginning to its end.
 struct Ways {
@@ -30,7 +29,7 @@ Ways waysOf(MotionDriver& driver, const motion::MoveCommand& command) {
         isAbsolute ? driver.system().toRobTarget(command.joints, command.frames) : command.target;
     Ways ways;
     ways.mm = norm(end.pose.pos - start.pose.pos);
-    ways.degrees = 2 * kDegrees * std::acos(std::min(1.0, std::fabs(dot(end.pose.rot, start.pose.rot))));
+    ways.degrees = robot::angleBetween(end.pose.rot, start.pose.rot);
     const auto& axes = driver.system().externalAxes();
     const motion::ExternalAxes& wanted = isAbsolute ? command.joints.extax : command.target.extax;
     for (std::size_t i = 0; i < axes.size(); ++i) {
