@@ -1,7 +1,7 @@
 // Arithmetic of frames that is too long to be inline.
 
-#include "runtime/robot/angles.h"
 #include "runtime/robot/frames.h"
+#include "runtime/robot/angles.h"
 
 #include <algorithm>
 #include <cmath>
