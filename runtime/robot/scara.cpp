@@ -56,9 +56,8 @@ void Scara::inverseAll(const Pose& flange, const Joints& seed, double /*armAngle
     for (double side : {1.0, -1.0}) {
         const double sine = side * std::sqrt(1 - cosine * cosine);
         const double m2 = std::atan2(sine, cosine) / kDeg;
-        const double m1 =
-            isFree ? modelAngle(seed, 0)
-                   : (std::atan2(y, x) - std::atan2(fore * sine, upper + fore * cosine)) / kDeg;
+        const double m1 = isFree ? modelAngle(seed, 0)
+                                 : (std::atan2(y, x) - std::atan2(fore * sine, upper + fore * cosine)) / kDeg;
         const Joints model{std::remainder(m1, 360.0), m2, flange.pos.z - geometry_.height,
                            std::remainder(turn - m1 - m2, 360.0)};
         Joints joints = Joints::zeros(4);

@@ -149,8 +149,7 @@ class SevenAxes final : public Mechanism {
                 const Found* known = nullptr) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
     double stretchedDeg() const {
-        return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / kDeg -
-               90.0;
+        return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / kDeg - 90.0;
     }
     void start(const Target& target, double tilt, int branch, Ends& ends) const;
     Ends endsOf(const Target& target, const Joints& joints) const;
@@ -571,8 +570,7 @@ Singularity SevenAxes::singularity(const Joints& joints) const {
     result.wristDeg = std::fabs(std::remainder(joints[4], 360.0));
     result.elbowDeg = std::min(bend, 180.0 - bend);
     result.shoulderDeg = std::fabs(std::remainder(joints[1], 360.0));
-    result.armAngleDeg =
-        std::atan2(norm(cross(line, reference)), std::fabs(dot(line, reference))) / kDeg;
+    result.armAngleDeg = std::atan2(norm(cross(line, reference)), std::fabs(dot(line, reference))) / kDeg;
     result.foldDeg = std::asin(std::min(std::fabs(side(joints)), 1.0)) / kDeg;
     return result;
 }
