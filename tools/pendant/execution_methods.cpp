@@ -126,7 +126,6 @@ Json ExecutionArea::start(const Json& params) {
     const ExecutionMode mode =
         has(params, "mode") ? wordOf(params, "mode", kStarts) : ExecutionMode::Continue;
     rt::Task* task = has(params, "task") ? &taskOf(controller_, params) : nullptr;
-    breakpoints_.setStopping(true); // another client may have started without them
     refuseUnless(controller_.start(mode, task));
     return {};
 }

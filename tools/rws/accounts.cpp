@@ -85,4 +85,10 @@ std::string Accounts::checkDigest(std::string_view authorization, std::string_vi
     return answer.verdict == DigestGuard::Verdict::Right ? answer.user : std::string();
 }
 
+std::string Accounts::digestNonce(std::string_view authorization) {
+    const auto fields = parseAuthorization(authorization, "Digest");
+    const auto found = fields.find("nonce");
+    return found == fields.end() ? std::string() : found->second;
+}
+
 } // namespace rapidc::rws

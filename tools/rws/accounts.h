@@ -24,6 +24,8 @@ class Accounts {
     /// more, so the client may try again with a new one.
     std::string checkDigest(std::string_view authorization, std::string_view method, std::string_view target,
                             bool& stale);
+    /// The nonce that an answer of HTTP digest names, "" without one.
+    static std::string digestNonce(std::string_view authorization);
     /// Value of WWW-Authenticate with a new nonce.
     std::string digestChallenge(bool stale);
     static std::string basicChallenge();

@@ -73,6 +73,8 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
         .typeName("FILE");
     command.addFlag("--no-program-start", settings.noProgramStart,
                     "begin with the motors off and the program stopped at main");
+    command.addFlag("--motors-on", settings.motorsOn,
+                    "with --no-program-start: begin with the motors on, ready for the first start");
     addRobotWare(command, controller.robotWare);
     command.add("--backup-dir", settings.backupFolder, "the folder of $BACKUP; default: a temporary one")
         .typeName("DIR");
@@ -112,12 +114,14 @@ std::string complete(ServeSettings& settings,
     service::Settings& controller = settings.controller;
     rt::RunOptions& options = controller.options;
     controller.programStart = !settings.noProgramStart;
+    controller.motorsOn = settings.motorsOn;
     Inputs& inputs = controller.inputs;
     inputs.tasks = options.tasks;
     inputs.configFiles = options.configFiles;
     inputs.robots = options.robots;
     inputs.conveyors = options.conveyors;
     inputs.cameras = options.cameras;
+    inputs.home = options.home;
     if (std::string problem = readPassword(settings); !problem.empty()) return problem;
     if (options.network.listen) {
         settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
