@@ -39,6 +39,9 @@ struct NativeBodies {
 /// Frees the instructions of a routine of the module: no code will be generated from them any more.
 using ReleaseRoutine = std::function<void(uint32_t routine)>;
 
+/// Holds a table as long as the code that refers to it, and returns where it lies. On any thread.
+using HoldTable = std::function<const uint32_t*(std::vector<uint32_t> table)>;
+
 struct CodegenOptions {
     bool optimise =
         true; ///< LLVM's O2 pipeline; off for the stepping profile, where variables stay in memory
@@ -53,6 +56,8 @@ struct CodegenOptions {
     PrepareRoutine prepare = {};
     /// Called by jit() for a huge routine of such a program when its words are written; empty: its instructions remain.
     ReleaseRoutine release = {};
+    /// Takes the words of huge routines, which an object would hold several times while it is made; empty: they are part of it.
+    HoldTable holdTable = {};
     /// The program is executed once from its beginning to its end: jit() leaves out the optimiser when few instructions can be
     /// executed at all, since it would take longer than they do.
     bool isExecutedOnce = false;

@@ -13,11 +13,12 @@ using ir::Op;
 
 llvm::Value* RoutineEmitter::constant(const ir::Inst& inst) {
     switch (inst.type) {
-    case ir::kBool: return b_.getInt1(inst.integer != 0);
-    case ir::kF32: return llvm::ConstantFP::get(m_.context(), llvm::APFloat(static_cast<float>(inst.number)));
-    case ir::kF64: return llvm::ConstantFP::get(m_.context(), llvm::APFloat(inst.number));
+    case ir::kBool: return b_.getInt1(inst.integer() != 0);
+    case ir::kF32:
+        return llvm::ConstantFP::get(m_.context(), llvm::APFloat(static_cast<float>(inst.number())));
+    case ir::kF64: return llvm::ConstantFP::get(m_.context(), llvm::APFloat(inst.number()));
     case ir::kPtr: return llvm::ConstantPointerNull::get(b_.getPtrTy());
-    default: return llvm::ConstantInt::getSigned(m_.valueType(inst.type), inst.integer); // integers
+    default: return llvm::ConstantInt::getSigned(m_.valueType(inst.type), inst.integer()); // integers
     }
 }
 

@@ -3,6 +3,7 @@
 #include <llvm/IR/IRBuilder.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "codegen/abi_row.h"
 #include "codegen/module_emitter.h"
@@ -119,8 +120,13 @@ class InterpretedRoutine {
         return new llvm::GlobalVariable(m_.target(), value->getType(), true,
                                         llvm::GlobalValue::PrivateLinkage, value, name);
     }
-    llvm::Constant* numbers(const std::vector<uint32_t>& values, const char* name) {
+    llvm::Constant* numbers(std::vector<uint32_t> values, const char* name) {
+        constexpr size_t kWorthHolding = size_t{1} << 14;
         if (values.empty()) return llvm::ConstantPointerNull::get(b_.getPtrTy());
+        if (const HoldTable& hold = m_.options().holdTable; hold && values.size() > kWorthHolding) {
+            const auto place = reinterpret_cast<uintptr_t>(hold(std::move(values)));
+            return llvm::ConstantExpr::getIntToPtr(b_.getInt64(place), b_.getPtrTy());
+        }
         // As a text: LLVM writes that in one piece, and other arrays number by number.
         const llvm::StringRef bytes(reinterpret_cast<const char*>(values.data()),
                                     values.size() * sizeof(uint32_t));
@@ -147,12 +153,12 @@ class InterpretedRoutine {
                      "pointers");
         using Code = rt::InterpretedCode;
         return constant(abi::Row<Code>(m_.context())
-                            .set<&Code::words>(numbers(words_.words, "words"))
+                            .set<&Code::words>(numbers(std::move(words_.words), "words"))
                             .set<&Code::pointers>(table)
                             .set<&Code::routine>(static_cast<llvm::Constant*>(m_.routineDesc(index_)))
-                            .set<&Code::starts>(numbers(words_.starts, "starts"))
-                            .set<&Code::nexts>(numbers(words_.nexts, "nexts"))
-                            .set<&Code::addressed>(numbers(addressed, "addressed"))
+                            .set<&Code::starts>(numbers(std::move(words_.starts), "starts"))
+                            .set<&Code::nexts>(numbers(std::move(words_.nexts), "nexts"))
+                            .set<&Code::addressed>(numbers(std::move(addressed), "addressed"))
                             .set<&Code::addressedCount>(addressed_.size())
                             .set<&Code::addressTable>(words_.addressTable)
                             .set<&Code::arguments>(words_.arguments)
@@ -249,7 +255,7 @@ class InterpretedRoutine {
     llvm::Function* function_;
     llvm::IRBuilder<> b_;
     const std::vector<uint32_t> addressed_;
-    const RoutineWords words_;
+    RoutineWords words_;
 };
 
 } // namespace

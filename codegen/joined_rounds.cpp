@@ -69,7 +69,7 @@ bool JoinedRounds::readBody(const ir::Module& module, const ir::Routine& routine
             }
         }
         if (b != header_ && last.op != Op::Br) return false;
-        b = last.target[0];
+        b = last.target(0);
         if (b == header_) return blocks == loop.blocks.size();
         if (!loop.contains[b]) return false;
     }

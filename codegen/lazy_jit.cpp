@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <deque>
 #include <fstream>
+#include <list>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -59,6 +60,10 @@ class LazyProgram : public JitProgram {
           quality_(module.routines.size(), Quality::None) {
         // It takes longer than the code.
         options_.debugInfo = options_.debugInfo && isDebugged();
+        options_.holdTable = [this](std::vector<uint32_t> table) {
+            const std::lock_guard lock(tablesMutex_);
+            return tables_.emplace_back(std::move(table)).data();
+        };
     }
 
     ~LazyProgram() override {
@@ -243,6 +248,8 @@ class LazyProgram : public JitProgram {
     std::vector<bool> prepared_; ///< used by the compiling thread
     std::vector<bool> released_; ///< as well: their instructions are gone, the code remains
     std::shared_ptr<const std::vector<bool>> settingTaskFrame_;
+    std::mutex tablesMutex_;
+    std::list<std::vector<uint32_t>> tables_; ///< of interpreted routines
     const rt::ProgramDesc* program_ = nullptr;
     std::mutex mutex_; ///< of what follows
     std::condition_variable changed_;

@@ -72,7 +72,7 @@ class Pace {
     std::optional<int64_t> constant(ir::ValueId id) const {
         const ir::Inst& inst = routine_.insts[id];
         if (inst.op != ir::Op::Const) return std::nullopt;
-        return inst.integer;
+        return inst.integer();
     }
 
     uint32_t localOf(ir::ValueId address) const {

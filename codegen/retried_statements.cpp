@@ -51,7 +51,7 @@ std::vector<bool> retriedBlocks(const ir::Routine& routine, const ir::Cfg& cfg,
         if (!failing[s] || !routine.statements[s].handled || start == ir::kNone) continue;
         result[start] = true;
         // A loop goes back to the next block.
-        if (isEmpty(routine, start)) result[routine.insts[routine.blocks[start].insts[0]].target[0]] = true;
+        if (isEmpty(routine, start)) result[routine.insts[routine.blocks[start].insts[0]].target(0)] = true;
     }
     return result;
 }

@@ -310,10 +310,10 @@ void RoutineEmitter::terminator(const ir::Inst& inst) {
     switch (ir::as<ir::EndOp>(inst.op)) {
     case ir::EndOp::Br:
         if (entersFastLoop()) return;
-        b_.CreateBr(blockOf(inst.target[0]));
+        b_.CreateBr(blockOf(inst.target(0)));
         return;
     case ir::EndOp::CondBr:
-        b_.CreateCondBr(operand(inst, 0), blockOf(inst.target[0]), blockOf(inst.target[1]),
+        b_.CreateCondBr(operand(inst, 0), blockOf(inst.target(0)), blockOf(inst.target(1)),
                         inst.extra == 1 ? m_.unlikely() : nullptr);
         return;
     case ir::EndOp::Switch: return switchOn(inst);
@@ -330,7 +330,7 @@ void RoutineEmitter::terminator(const ir::Inst& inst) {
 void RoutineEmitter::switchOn(const ir::Inst& inst) {
     const std::vector<ir::SwitchCase>& cases = routine_.caseLists[inst.index];
     auto* branch =
-        b_.CreateSwitch(operand(inst, 0), blockOf(inst.target[0]), static_cast<unsigned>(cases.size()));
+        b_.CreateSwitch(operand(inst, 0), blockOf(inst.target(0)), static_cast<unsigned>(cases.size()));
     for (const ir::SwitchCase& entry : cases)
         branch->addCase(b_.getInt32(static_cast<uint32_t>(entry.value)), blockOf(entry.target));
 }

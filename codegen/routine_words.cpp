@@ -291,12 +291,12 @@ void WordWriter::leaf(const ir::Inst& inst) {
     switch (ir::as<ir::LeafOp>(inst.op)) {
     case ir::LeafOp::Const:
         if (inst.type == ir::kF32)
-            return number(static_cast<int32_t>(std::bit_cast<uint32_t>(static_cast<float>(inst.number))));
-        if (inst.type == ir::kF64) return number(std::bit_cast<int64_t>(inst.number));
-        if (inst.type == ir::kBool) return number(inst.integer != 0 ? 1 : 0);
+            return number(static_cast<int32_t>(std::bit_cast<uint32_t>(static_cast<float>(inst.number()))));
+        if (inst.type == ir::kF64) return number(std::bit_cast<int64_t>(inst.number()));
+        if (inst.type == ir::kBool) return number(inst.integer() != 0 ? 1 : 0);
         return number(inst.type == ir::kPtr
                           ? 0
-                          : ir::signExtended(static_cast<uint64_t>(inst.integer), ir::bitsOf(inst.type)));
+                          : ir::signExtended(static_cast<uint64_t>(inst.integer()), ir::bitsOf(inst.type)));
     case ir::LeafOp::ParamVal:
         put(Op::Move);
         put(made_);
@@ -395,13 +395,13 @@ void WordWriter::end(const ir::Inst& inst) {
     };
     switch (ir::as<ir::EndOp>(inst.op)) {
     case ir::EndOp::Br:
-        if (inst.target[0] == following_) return;
+        if (inst.target(0) == following_) return;
         put(Op::Jump);
-        return place(inst.target[0]);
+        return place(inst.target(0));
     case ir::EndOp::CondBr:
         one(Op::Branch);
-        place(inst.target[0]);
-        return place(inst.target[1]);
+        place(inst.target(0));
+        return place(inst.target(1));
     case ir::EndOp::Switch: return switchOn(inst);
     case ir::EndOp::Ret:
         if (inUndo_[current_]) return put(Op::ReturnUndo);
@@ -422,7 +422,7 @@ void WordWriter::switchOn(const ir::Inst& inst) {
     std::sort(cases.begin(), cases.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
     put(Op::Choose);
     operand(inst, 0);
-    place(inst.target[0]);
+    place(inst.target(0));
     put(static_cast<uint32_t>(cases.size()));
     for (const ir::SwitchCase& entry : cases) {
         put(static_cast<uint32_t>(entry.value));

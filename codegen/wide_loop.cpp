@@ -57,7 +57,7 @@ bool WideLoop::readBody() {
             insts_.push_back(id);
         }
         if (b != header_ && last.op != Op::Br) return false;
-        b = last.target[0];
+        b = last.target(0);
         if (b == header_) break;
         if (!loop_.contains[b] || blocks > loop_.blocks.size()) return false;
     }
@@ -92,7 +92,7 @@ bool WideLoop::chooseWidth() {
 std::optional<int64_t> WideLoop::knownRounds() const {
     const Inst& bound = routine_.insts[counted_.bound];
     std::optional<int64_t> last;
-    if (bound.op == Op::Const) last = bound.integer;
+    if (bound.op == Op::Const) last = bound.integer();
     if (bound.op == Op::Load) last = initialValue(bound.operands[0]);
     for (const ValueId id : routine_.blocks[header_].insts) {
         const Inst& load = routine_.insts[id];
@@ -112,7 +112,7 @@ std::optional<int64_t> WideLoop::initialValue(ValueId address) const {
         const Inst& store = routine_.insts[id];
         if (store.op != Op::Store || loadedLocal(store) != local) continue;
         const Inst& stored = routine_.insts[store.operands[0]];
-        result = stored.op == Op::Const ? std::optional(stored.integer) : std::nullopt;
+        result = stored.op == Op::Const ? std::optional(stored.integer()) : std::nullopt;
     }
     return result;
 }
@@ -163,7 +163,7 @@ bool WideLoop::classify(ValueId id) {
         const Inst& amount = routine_.insts[other];
         const auto before = lanes_.at(inst.operands[second ? 1 : 0]).offset;
         if (before && amount.op == Op::Const)
-            out.offset = *before + (inst.op == Op::IAdd ? amount.integer : -amount.integer);
+            out.offset = *before + (inst.op == Op::IAdd ? amount.integer() : -amount.integer());
     } else if (inst.op == Op::SIntToFloat) {
         out.kind = Kind::Vector;
     } else if (inst.op == Op::ElemAddr) {

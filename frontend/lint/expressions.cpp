@@ -64,7 +64,7 @@ void Walker::expr(const Expr& e, bool partOfText) {
 
 void Walker::inexact(const NumLiteralExpr& e) {
     const double stored = static_cast<double>(static_cast<float>(e.value));
-    if (info(e).type.type != program_.num || stored == e.value || !isWholeLiteral(tree_->text(e.first)))
+    if (info(e).type().type != program_.num || stored == e.value || !isWholeLiteral(tree_->text(e.first)))
         return;
     report(say::InexactInteger, range(e), {std::string(tree_->text(e.first)), fmt::format("{:.0f}", stored)});
 }
@@ -73,7 +73,7 @@ void Walker::binary(const BinaryExpr& e, bool partOfText) {
     bool text = false;
     switch (e.op) {
     case BinaryOp::Add:
-        text = info(e).type.type == program_.string;
+        text = info(e).type().type == program_.string;
         if (text && !partOfText) textLength(e);
         break;
     case BinaryOp::Sub:

@@ -355,7 +355,7 @@ bool Walker::testStmt(const TestStmt& s) {
 void Walker::missingDefault(const TestStmt& s) {
     constexpr size_t kFewest = 2; // one CASE alone is an IF
     if (s.cases.size() < kFewest || !s.subject || !isOpenSubject(*s.subject)) return;
-    if (info(*s.subject).type.type->kind == sema::TypeKind::Bool) return;
+    if (info(*s.subject).type().type->kind == sema::TypeKind::Bool) return;
     report(say::MissingDefault, {range(s).begin, range(*s.subject).end}, {text(*s.subject)});
 }
 

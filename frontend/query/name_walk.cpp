@@ -90,7 +90,7 @@ class NameWalker {
     }
     void component(const ComponentExpr& n) {
         if (n.name == kNoToken) return;
-        DataType base = snapshot_.program().info(module_, *n.base).type;
+        DataType base = snapshot_.program().info(module_, *n.base).type();
         if (!base.type || base.type->kind == TypeKind::Error)
             base = typeOfExpr(Scope(snapshot_, file_, tree_.tokens[n.name].offset), *n.base);
         componentOf(base.type, n.name, Access::Read);

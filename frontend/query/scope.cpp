@@ -199,7 +199,7 @@ DataType typeOfExpr(const Scope& scope, const Expr& expr) {
             const DataType& own = static_cast<const DataSymbol*>(info.symbol)->type;
             if (isKnown(own)) return own; // a signal that is read as a number is a signal
         }
-        if (isKnown(info.type)) return info.type;
+        if (isKnown(info.type())) return info.type();
     }
     return byNames(scope, expr);
 }

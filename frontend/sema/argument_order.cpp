@@ -35,14 +35,14 @@ bool mayStandFor(const DataSymbol& root, ParamMode mode) {
 }
 
 ArgumentOrder::ArgumentOrder(State& state, const Parts& parts)
-    : CheckerPart(state), arguments_(parts.arguments), calls_(parts.calls), places_(parts.places),
-      remedies_(parts.remedies), scopes_(parts.scopes) {}
+    : CheckerPart(state), arguments_(parts.arguments), calls_(parts.calls), remedies_(parts.remedies),
+      scopes_(parts.scopes) {}
 
 /// Would the argument, which has been checked, fit this parameter?
 bool ArgumentOrder::couldBe(const Expr& e, const DataSymbol& param) {
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const DataType& found =
-        data ? data->type : info(e).type; // signals and handles have been taken for values
+        data ? data->type : info(e).type(); // signals and handles have been taken for values
     const Type& want = *param.type.type;
     if (!found.type || found.type->kind == TypeKind::Error) // a name that nothing declares may be a signal
         return e.kind == NodeKind::Name && arguments_.handleHint(param);
@@ -76,10 +76,9 @@ bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
         const Expr *whole = args[i]->value, *part = args[i + 1]->value;
         if (!whole || !part || part->kind != NodeKind::Name || args[i + 1]->argKind != ArgKind::Required)
             continue;
-        const DataType& type = info(*whole).type;
-        if (range(*part).begin != range(*whole).end + 1 || info(*part).type.type->kind != TypeKind::Error ||
-            type.rank > 0 || type.type->kind != TypeKind::Record ||
-            places_.findComponent(*type.type, text(*part)) < 0)
+        const DataType& type = info(*whole).type();
+        if (range(*part).begin != range(*whole).end + 1 || info(*part).type().type->kind != TypeKind::Error ||
+            type.rank > 0 || type.type->kind != TypeKind::Record || type.type->findComponent(text(*part)) < 0)
             continue;
         reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
         const SourceRange comma{range(*whole).end, range(*part).begin};
@@ -139,7 +138,7 @@ bool ArgumentOrder::explainOrder(const RoutineSymbol& routine, const std::vector
     reset();
     // A name that nothing declares is wrong in any order.
     const auto isInPlace = [&](size_t i) {
-        return couldBe(*given[i], *params[i]) || info(*given[i]).type.type->kind == TypeKind::Error;
+        return couldBe(*given[i], *params[i]) || info(*given[i]).type().type->kind == TypeKind::Error;
     };
     bool inOrder = true;
     for (size_t i = 0; i < count; ++i)

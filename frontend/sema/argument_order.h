@@ -32,7 +32,6 @@ class ArgumentOrder : CheckerPart {
 
     Arguments& arguments_;
     CallBinder& calls_;
-    Places& places_;
     Remedies& remedies_;
     Scopes& scopes_;
 };

@@ -95,11 +95,11 @@ void Arguments::checkSameType(const BoundCall& call, std::vector<const Argument*
         judged.push_back(bound->argument);
         const Typed t = expressions_.expr(*bound->value, want.type ? &want : nullptr);
         if (t.isError()) continue;
-        if (!checkClass(*call.routine, *bound, t.info->type)) continue;
+        if (!checkClass(*call.routine, *bound, t.info->type())) continue;
         if (!want.type) {
-            want = t.info->type;
+            want = t.info->type();
         } else if (!expressions_.fits(*bound->value, t, want)) {
-            const auto names = typeNames(t.info->type, want);
+            const auto names = typeNames(t.info->type(), want);
             report(say::ArgumentType, range(*bound->value),
                    {bound->param->name, call.routine->name, names[0], names[1]});
         }
@@ -122,7 +122,7 @@ bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
 bool Arguments::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
     const DataSymbol* entire =
         value.kind == NodeKind::Name ? asData(scopes_.lookup(idOf(as<NameExpr>(value).name))) : nullptr;
-    const DataType& found = info(value).type;
+    const DataType& found = info(value).type();
     const bool unknown = !found.type || found.type->kind == TypeKind::Error;
     return std::any_of(params.begin(), params.end(), [&](const BoundArg& bound) {
         const DataSymbol& param = *bound.param;
@@ -178,8 +178,8 @@ void Arguments::takeBack(const std::vector<const Expr*>& moved) {
 bool Arguments::isDotForComma(const Expr& e) {
     if (e.kind != NodeKind::Component) return false;
     const auto& part = as<ComponentExpr>(e);
-    return isName(part.name) && info(e).type.type->kind == TypeKind::Error &&
-           info(*part.base).type.type->kind == TypeKind::Record && asData(scopes_.lookup(idOf(part.name)));
+    return isName(part.name) && info(e).type().type->kind == TypeKind::Error &&
+           info(*part.base).type().type->kind == TypeKind::Record && asData(scopes_.lookup(idOf(part.name)));
 }
 
 // Arguments of the wrong type, and those that are missing. One that is missing in the middle is one mistake.
@@ -221,11 +221,11 @@ void Arguments::judgeValue(const RoutineSymbol& routine, const BoundArg& bound, 
     const DataSymbol& param = *bound.param;
     if (t.isError()) return;
     if (param.type.type->kind == TypeKind::AnyType) {
-        checkClass(routine, bound, t.info->type);
+        checkClass(routine, bound, t.info->type());
         return;
     }
     if (expressions_.fits(*bound.value, t, param.type)) return;
-    mismatches_.push_back({&param, bound.value, t.info->type});
+    mismatches_.push_back({&param, bound.value, t.info->type()});
 }
 
 void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bound) {
@@ -236,7 +236,7 @@ void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bou
     }
     if (bound.param->accepts == ParamClass::SignalOrString) {
         const Typed t = expressions_.expr(e);
-        if (!t.isError()) checkClass(routine, bound, t.info->type);
+        if (!t.isError()) checkClass(routine, bound, t.info->type());
         return;
     }
     if (e.kind == NodeKind::Binary && bound.param->type.type->kind == TypeKind::SemiValue) {
@@ -247,7 +247,7 @@ void Arguments::checkReference(const RoutineSymbol& routine, const BoundArg& bou
     }
     if (e.kind == NodeKind::Paren && isPlaceExpr(bare(e))) {
         places_.place(bare(e), handleHint(*bound.param));
-        info(e).type = info(bare(e)).type;
+        setType(e, info(bare(e)).type());
         fixParentheses(reportAccess(routine, bound, nullptr, describeExpr(e)), e);
         return;
     }
@@ -267,7 +267,7 @@ void Arguments::fixParentheses(diag::Diagnostic& d, const Expr& e) {
 void Arguments::judgeReference(const RoutineSymbol& routine, const BoundArg& bound, const Place& place) {
     if (!place.root) return;
     const DataSymbol& param = *bound.param;
-    const DataType& found = info(*bound.value).type;
+    const DataType& found = info(*bound.value).type();
     if (found.type->kind == TypeKind::Error) return;
     if (param.type.type->kind == TypeKind::AnyType) {
         if (!checkClass(routine, bound, found)) return;
@@ -383,12 +383,12 @@ DataSymbol* Arguments::ownOptional(const Expr& e) {
 void Arguments::checkDim(const CallExpr& e, const RoutineSymbol& routine) {
     if (routine.role != Role::Dim || e.args.size() != 2) return;
     const Expr *array = e.args[0]->value, *number = e.args[1]->value;
-    if (!array || !number || info(*array).type.rank == 0) return;
+    if (!array || !number || info(*array).type().rank == 0) return;
     const ConstValue* value = info(*number).constant;
     if (!value || value->kind != ConstValue::Kind::Number) return;
-    if (value->number < 1 || value->number > info(*array).type.rank)
+    if (value->number < 1 || value->number > info(*array).type().rank)
         report(say::DimensionNumber, range(*number),
-               {text(*number), counted(info(*array).type.rank, "dimension")});
+               {text(*number), counted(info(*array).type().rank, "dimension")});
 }
 
 void Arguments::checkPresent(const BoundArg& bound) {

@@ -67,7 +67,7 @@ Typed CallBinder::functionCall(const CallExpr& e) {
     bindCall(e, *routine, e.name, e.args);
     arguments_.checkDim(e, *routine);
     ExprInfo& out = info(e);
-    out.type = routine->returnType;
+    setType(e, routine->returnType);
     out.symbol = routine;
     return {&out};
 }
@@ -359,7 +359,7 @@ size_t CallBinder::chooseAlternative(BoundCall& call, const Argument& arg, size_
     if (isPlaceExpr(e)) {
         found = places_.place(e, hint);
         t = {&info(e)};
-        const bool signal = t.info->type.rank == 0 && t.info->type.type->kind == TypeKind::SemiValue;
+        const bool signal = t.info->type().rank == 0 && t.info->type().type->kind == TypeKind::SemiValue;
         if (signal && !hint) t = expressions_.placeValue(e), found = {};
     } else {
         DataType want = routine.params[first]->type;

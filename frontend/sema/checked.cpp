@@ -3,10 +3,9 @@
 namespace rapid::sema {
 
 ExprInfo* ExprTable::makeChunk() {
-    const std::span<ExprInfo> chunk = arena_.makeArray<ExprInfo>(kPerChunk);
-    for (ExprInfo& info : chunk)
-        info.type.type = none_.type.type;
-    return chunk.data();
+    auto* chunk = static_cast<ExprInfo*>(arena_.allocate(sizeof(ExprInfo) * kPerChunk, alignof(ExprInfo)));
+    std::uninitialized_fill_n(chunk, kPerChunk, none_);
+    return chunk;
 }
 
 void FileFacts::dropInner() {

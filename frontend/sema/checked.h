@@ -16,11 +16,22 @@ namespace rapid::sema {
 /// A signal (and a part of a signal array) that is read as a value has the type `num` or, for groups where the context
 /// asks for it, `dnum`: the types of info and of the symbol then differ. Passed on as a signal it keeps its own type.
 /// A literal is `num` or `dnum` by context, and so is an expression of literals only; `constant` is rounded to it.
+/// Programs have millions of them, so the type is held by reference.
 struct ExprInfo {
-    DataType type;                        ///< aggregates: the type the context gave them
+    explicit ExprInfo(const Type& scalar) : type_(&scalar.scalar) {}
+    /// Aggregates: the type the context gave them.
+    const DataType& type() const { return *type_; }
+    void setType(const Type& scalar) { type_ = &scalar.scalar; }
+    /// The shape of an array is copied to `arena`, which must live as long as the facts.
+    void setType(const DataType& type, Arena& arena) {
+        type_ = type.rank == 0 ? &type.type->scalar : arena.copy(std::span(&type, 1)).data();
+    }
+
     Symbol* symbol = nullptr;             ///< NameExpr: what it names; CallExpr: the function
-    int component = -1;                   ///< ComponentExpr: index of the component
     const ConstValue* constant = nullptr; ///< value when it is a constant expression (folded), else null
+
+  private:
+    const DataType* type_;
 };
 
 /// The ExprInfo of all expressions of a tree, by Expr::id, made where they are first asked for. A plain
@@ -28,9 +39,7 @@ struct ExprInfo {
 class ExprTable {
   public:
     ExprTable(uint32_t count, const Type* unknown, Arena& arena)
-        : arena_(arena), chunks_((count + kPerChunk - 1) / kPerChunk, nullptr) {
-        none_.type.type = unknown;
-    }
+        : arena_(arena), chunks_((count + kPerChunk - 1) / kPerChunk, nullptr), none_(*unknown) {}
     const ExprInfo& operator[](uint32_t id) const {
         const ExprInfo* chunk = id / kPerChunk < chunks_.size() ? chunks_[id / kPerChunk] : nullptr;
         return chunk ? chunk[id % kPerChunk] : none_;

@@ -68,8 +68,6 @@ struct RoutineContext {
     size_t partComparisonsLeft = kMaxPartComparisons; ///< of labels, components and parameters
     const RoutineSymbol* wideRoutine = nullptr;       ///< one with very many parameters, and their names
     NameMap<DataSymbol> wideNames;
-    const Type* wideRecord = nullptr; ///< one with very many components, and their names
-    std::unordered_map<std::string, int> wideComponents;
 };
 
 /// A file of a task: where its tree and facts are in the program, and its modules.

@@ -23,7 +23,7 @@ void CyclicCondition::check(const CallStmt& s) {
 /// The part of the expression that cannot be evaluated later, and its place; "" when all of it can.
 std::string CyclicCondition::notCyclic(const Expr& e, const Expr*& culprit) {
     const ExprInfo& facts = info(e);
-    if (facts.type.type != nullptr && facts.type.type->kind == TypeKind::Error) return ""; // reported
+    if (facts.type().type != nullptr && facts.type().type->kind == TypeKind::Error) return ""; // reported
     culprit = &e;
     switch (e.kind) {
     case NodeKind::Paren: return notCyclic(*as<ParenExpr>(e).inner, culprit);
@@ -40,10 +40,10 @@ std::string CyclicCondition::notCyclic(const Expr& e, const Expr*& culprit) {
     case NodeKind::ErrorExpr: return "";
     default: break;
     }
-    const TypeKind kind = facts.type.type->base()->kind;
-    return kind == TypeKind::Bool || facts.type.type->isNumeric()
+    const TypeKind kind = facts.type().type->base()->kind;
+    return kind == TypeKind::Bool || facts.type().type->isNumeric()
                ? ""
-               : "a value of type '" + facts.type.type->name + "'";
+               : "a value of type '" + facts.type().type->name + "'";
 }
 
 std::string CyclicCondition::notCyclicData(const Expr& e) {
@@ -53,7 +53,7 @@ std::string CyclicCondition::notCyclicData(const Expr& e) {
     const DataSymbol* data = root->kind == NodeKind::Name ? asData(info(*root).symbol) : nullptr;
     if (data == nullptr || data->type.type->kind == TypeKind::Error) return "";
     if (data->type.type->base()->kind == TypeKind::SemiValue) return "";
-    const DataType& type = info(e).type;
+    const DataType& type = info(e).type();
     const bool fits = type.rank == 0 && (type.type->base()->kind == TypeKind::Bool || type.type->isNumeric());
     if (!fits) return "'" + data->name + "' of type '" + type.type->name + "'";
     if (info(e).constant != nullptr) return "";

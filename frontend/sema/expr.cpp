@@ -24,7 +24,7 @@ Expressions::Expressions(State& state, const Parts& parts)
 
 Typed Expressions::result(const Expr& e, const Type* type, Flex flex) {
     ExprInfo& out = info(e);
-    out.type = {type, 0, {}};
+    out.setType(*type);
     return {&out, flex};
 }
 
@@ -80,7 +80,7 @@ Typed Expressions::literal(const NumLiteralExpr& e, const DataType* want, ConstV
 // Literals that ended up as num although they do not fit it.
 void Expressions::checkBigLiterals() {
     for (const Expr* e : bigLiterals_)
-        if (info(*e).type.type->kind == TypeKind::Num) report(say::NumberBeyondNum, range(*e), {text(*e)});
+        if (info(*e).type().type->kind == TypeKind::Num) report(say::NumberBeyondNum, range(*e), {text(*e)});
     bigLiterals_.clear();
 }
 
@@ -89,10 +89,10 @@ Typed Expressions::placeValue(const Expr& e) {
     const Place found = places_.place(e);
     ExprInfo& out = info(e);
     if (!found.root) return {&out};
-    const Type& type = *out.type.type;
+    const Type& type = *out.type().type;
     switch (type.kind) {
     case TypeKind::SemiValue: {
-        if (out.type.rank > 0) return {&out};
+        if (out.type().rank > 0) return {&out};
         const bool group = isKnown(type, KnownType::GroupInput) || isKnown(type, KnownType::GroupOutput);
         return result(e, group ? program_.dnum : program_.num, group ? Flex::Group : Flex::None);
     }
@@ -116,7 +116,6 @@ Typed Expressions::paren(const ParenExpr& e, const DataType* want, ConstValue* s
     ExprInfo& out = info(e);
     out = *inner.info;
     out.symbol = nullptr;
-    out.component = -1;
     return {&out, inner.flex};
 }
 
@@ -153,7 +152,7 @@ Typed Expressions::aggregateOfVersion(const AggregateExpr& e, const DataType& wa
     ConstValue* value = slot ? slot : folding_.newConst();
     folding_.setDefault(*value, *want.type);
     ExprInfo& out = info(e);
-    out.type = want;
+    setType(e, want);
     out.constant = value;
     return {&out};
 }
@@ -186,8 +185,8 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
         const Typed t = expr(element, &member, &members[i]);
         const bool fit = fits(element, t, member);
         if (!fit) {
-            const auto names = typeNames(t.info->type, member);
-            const Remedy remedy = remedies_.remedyFor(element, t.info->type, member);
+            const auto names = typeNames(t.info->type(), member);
+            const Remedy remedy = remedies_.remedyFor(element, t.info->type(), member);
             remedies_.offer(
                 report(say::AggregateMember, range(element), {names[0], names[1]}, {Misfit::Type, element}),
                 element, remedy);
@@ -199,7 +198,7 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
         }
         wrong |= !fit || t.isError();
         // The first row of an array of unknown size gives the length of the others.
-        if (array && i == 0) std::copy_n(t.info->type.dims, member.rank, own.dims + 1);
+        if (array && i == 0) std::copy_n(t.info->type().dims, member.rank, own.dims + 1);
         if (array) std::copy_n(own.dims + 1, member.rank, member.dims);
         if (!t.info->constant)
             constant = false;
@@ -207,8 +206,8 @@ Typed Expressions::aggregate(const AggregateExpr& e, const DataType* want, Const
             members[i] = folding_.owned(*t.info->constant);
     }
     ExprInfo& out = info(e);
-    out.type = own;
-    if (wrong) out.type.type = program_.errorType;
+    if (wrong) own.type = program_.errorType;
+    setType(e, own);
     if (constant && !wrong) {
         value->setMembers(members);
         out.constant = value;
@@ -230,8 +229,8 @@ void Expressions::settle(const Expr& top, const Type* to) {
     std::vector<const Expr*> parents; // operators, folded again from the inside out
     for (;;) {
         ExprInfo& out = info(*e);
-        if (out.type.type == to) break;
-        out.type.type = to;
+        if (out.type().type == to) break;
+        out.setType(*to);
         if (e->kind == NodeKind::NumLiteral) {
             const double value = as<NumLiteralExpr>(*e).value;
             const bool dnum = to->kind == TypeKind::Dnum;
@@ -272,7 +271,7 @@ bool Expressions::fits(const Expr& e, Typed t, const DataType& want) {
         settle(e, type.base());
         return true;
     }
-    return equivalent(t.info->type, want);
+    return equivalent(t.info->type(), want);
 }
 
 bool Expressions::condition(const Expr& e, const char* what) {
@@ -281,7 +280,7 @@ bool Expressions::condition(const Expr& e, const char* what) {
     const DataSymbol* data = e.kind == NodeKind::Name ? asData(info(e).symbol) : nullptr;
     const bool signal = data && data->type.type->kind == TypeKind::SemiValue;
     const Remedy remedy = signal ? Remedy{": compare the signal, " + data->name + " = 1", data->name + " = 1"}
-                                 : remedies_.remedyFor(e, t.info->type, {program_.boolean, 0, {}});
+                                 : remedies_.remedyFor(e, t.info->type(), {program_.boolean, 0, {}});
     auto& d =
         report(say::ConditionNotBool, range(e), {what, typeName(*t.info), remedy.words}, {Misfit::Type, e});
     if (!remedy.instead.empty()) d.fix(range(e), remedy.instead, false);

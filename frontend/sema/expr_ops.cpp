@@ -18,7 +18,7 @@ Typed Expressions::unary(const UnaryExpr& e, const DataType* want, ConstValue* s
     const Typed operand = expr(*e.operand, e.op == UnaryOp::Not ? nullptr : want);
     if (operand.isError()) return errorExpr(e);
     const char* name = e.op == UnaryOp::Not ? "NOT" : e.op == UnaryOp::Plus ? "+" : "-";
-    const DataType& type = operand.info->type;
+    const DataType& type = operand.info->type();
     const bool scalar = type.rank == 0;
     if (e.op == UnaryOp::Not && scalar && type.type->kind == TypeKind::Bool) {
         const Typed t = result(e, program_.boolean);
@@ -73,11 +73,11 @@ Typed Expressions::binaryChain(const BinaryExpr& top, const DataType* want) {
         const bool equal = e.op == BinaryOp::Eq || e.op == BinaryOp::Ne;
         if (first && isAggregate(*leaf) && !isAggregate(*e.right)) {
             const Typed right = expr(*e.right);
-            if (refusesAggregate(e, right.info->type)) {
+            if (refusesAggregate(e, right.info->type())) {
                 visitLoose(*leaf);
                 left = errorExpr(e);
             } else {
-                const DataType* given = givesType(e.op, right.info->type) ? &right.info->type : nullptr;
+                const DataType* given = givesType(e.op, right.info->type()) ? &right.info->type() : nullptr;
                 left = combine(e, expr(*leaf, given), right);
             }
         } else {
@@ -91,12 +91,12 @@ Typed Expressions::binaryChain(const BinaryExpr& top, const DataType* want) {
             }
             const bool said = first && std::exchange(nonValueReported_, false) && isPlaceExpr(*e.right);
             if (said) visitLoose(*e.right); // "clock1 = clock2" is one mistake
-            const bool typed = equal || (isAggregate(*e.right) && givesType(e.op, left.info->type));
-            if (isAggregate(*e.right) && refusesAggregate(e, left.info->type)) {
+            const bool typed = equal || (isAggregate(*e.right) && givesType(e.op, left.info->type()));
+            if (isAggregate(*e.right) && refusesAggregate(e, left.info->type())) {
                 visitLoose(*e.right);
                 left = errorExpr(e);
             } else {
-                const Typed right = said ? left : expr(*e.right, typed ? &left.info->type : numeric);
+                const Typed right = said ? left : expr(*e.right, typed ? &left.info->type() : numeric);
                 left = combine(e, left, right);
             }
         }
@@ -166,7 +166,7 @@ Typed Expressions::operatorError(const BinaryExpr& e, Typed left, Typed right) {
 
 // Brings two numbers to one type; `flex` says whether it is still open.
 Expressions::Numeric Expressions::unify(const BinaryExpr& e, Typed& left, Typed& right, Flex& flex) {
-    const DataType &a = left.info->type, &b = right.info->type;
+    const DataType &a = left.info->type(), &b = right.info->type();
     if (a.rank > 0 || b.rank > 0 || !a.type->isNumeric() || !b.type->isNumeric()) return Numeric::NotNumeric;
     flex = Flex::None;
     if (left.flex != Flex::None && right.flex != Flex::None) {
@@ -211,7 +211,7 @@ void Expressions::checkIntegerOperands(const BinaryExpr& e) {
 
 // Strings, vectors and rotations.
 Typed Expressions::vectorArithmetic(const BinaryExpr& e, Typed left, Typed right) {
-    if (left.info->type.rank > 0 || right.info->type.rank > 0) return operatorError(e, left, right);
+    if (left.info->type().rank > 0 || right.info->type().rank > 0) return operatorError(e, left, right);
     // A group signal in a product with a vector counts as num; so does a literal already.
     const auto asNum = [&](const Expr& side, Typed t) {
         if (t.flex != Flex::None) settle(side, program_.num);
@@ -286,7 +286,7 @@ Typed Expressions::equality(const BinaryExpr& e, Typed left, Typed right) {
     Flex flex = Flex::None;
     const Numeric numeric = unify(e, left, right, flex);
     const Typed t = result(e, program_.boolean);
-    const DataType &a = left.info->type, &b = right.info->type;
+    const DataType &a = left.info->type(), &b = right.info->type();
     if (numeric == Numeric::Ok)
         folding_.foldBinary(e);
     else if (numeric == Numeric::Mixed)

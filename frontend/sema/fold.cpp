@@ -252,7 +252,7 @@ void Folding::foldBinary(const BinaryExpr& e) {
         return;
     }
     double number = 0;
-    if (!foldArithmetic(e, a->number, b->number, out.type.type->kind == TypeKind::Dnum, number)) return;
+    if (!foldArithmetic(e, a->number, b->number, out.type().type->kind == TypeKind::Dnum, number)) return;
     ConstValue* value = newConst();
     value->kind = ConstValue::Kind::Number;
     value->number = number;

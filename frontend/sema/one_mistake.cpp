@@ -202,8 +202,9 @@ class UseWalk {
         while (true) {
             const bool logic = e->op >= BinaryOp::And;
             const DataType boolean = {program_.boolean, 0, {}};
-            expression(e->right, side(*e, logic ? boolean : info(*e->left).type, *e->right, logic), e->left);
-            Claim left = side(*e, logic ? boolean : info(*e->right).type, *e->left, logic);
+            expression(e->right, side(*e, logic ? boolean : info(*e->left).type(), *e->right, logic),
+                       e->left);
+            Claim left = side(*e, logic ? boolean : info(*e->right).type(), *e->left, logic);
             if (e->left->kind != NodeKind::Binary) return expression(e->left, std::move(left), e->right);
             e = &as<BinaryExpr>(*e->left);
         }
@@ -212,7 +213,7 @@ class UseWalk {
     /// The claim about operand `e` when the other one is right.
     Claim side(const BinaryExpr& whole, const DataType& needed, const Expr& e, bool logic) const {
         Claim out = claim(whole, Misfit::Operator, needed);
-        if (out.nothing || out.said.empty() || isUnknown(info(e).type) || !sameType(info(e).type, needed))
+        if (out.nothing || out.said.empty() || isUnknown(info(e).type()) || !sameType(info(e).type(), needed))
             return out;
         if (logic)
             out.said.clear(); // it is right
@@ -242,7 +243,7 @@ class UseWalk {
             if (const Symbol* root = rootOf(value)) kinds_[{root, param.mode}].push_back(access);
             return expression(&value);
         }
-        use(&param, param.type, claim(value, info(value).type), &value);
+        use(&param, param.type, claim(value, info(value).type()), &value);
         expression(&value, claim(value, param.type));
     }
 
@@ -265,7 +266,7 @@ class UseWalk {
             expression(dimension);
         if (!data.init && !decl.init) return;
         const Expr& init = *decl.init;
-        Claim own = claim(init, info(init).type);
+        Claim own = claim(init, info(init).type());
         if (init.kind == NodeKind::Aggregate) own = members(as<AggregateExpr>(init), data.type);
         use(&data, data.type, std::move(own), &init);
         expression(&init);
@@ -285,7 +286,7 @@ class UseWalk {
         Claim out;
         for (const Expr* member : e.elements()) {
             const Diagnostic* d = find(*member, Misfit::Type);
-            const DataType found = {info(*member).type.type, rank, {}};
+            const DataType found = {info(*member).type().type, rank, {}};
             if (!d || isUnknown(found) || (out.needed.type && !sameType(out.needed, found))) return {};
             out.needed = found;
             out.said.push_back(d);
@@ -337,16 +338,16 @@ class UseWalk {
             expression(s.target, anything());
             return expression(s.value);
         }
-        expression(s.target, claim(*s.value, info(*s.value).type), s.value);
-        expression(s.value, claim(*s.value, info(*s.target).type));
+        expression(s.target, claim(*s.value, info(*s.value).type()), s.value);
+        expression(s.value, claim(*s.value, info(*s.target).type()));
     }
 
     void test(const TestStmt& s) {
         if (s.subject && s.cases.empty()) expression(s.subject, anything());
         for (const TestCase* c : s.cases) {
             for (const Expr* value : c->values) {
-                const DataType subject = s.subject ? info(*s.subject).type : DataType();
-                expression(s.subject, claim(*value, info(*value).type), value);
+                const DataType subject = s.subject ? info(*s.subject).type() : DataType();
+                expression(s.subject, claim(*value, info(*value).type()), value);
                 expression(value, claim(*value, subject));
             }
             list(c->body);
@@ -357,7 +358,7 @@ class UseWalk {
     void giveBack(const ReturnStmt& s) {
         if (!s.value) return;
         if (!routine_ || routine_->routineKind != RoutineKind::Func) return expression(s.value);
-        use(routine_, routine_->returnType, claim(*s.value, info(*s.value).type), s.value);
+        use(routine_, routine_->returnType, claim(*s.value, info(*s.value).type()), s.value);
         expression(s.value, claim(*s.value, routine_->returnType));
     }
 

@@ -29,6 +29,9 @@ class CheckerPart {
     /// As written, and its value where that does not show: "n+1 = 4".
     std::string valueText(const syntax::Expr& e) const;
     ExprInfo& info(const syntax::Expr& e) const { return context_.exprs->at(e.id); }
+    void setType(const syntax::Expr& e, const DataType& type) const {
+        info(e).setType(type, context_.module->facts->inner);
+    }
     FileFacts& facts() const { return *context_.module->facts; }
     bool hasErrorHandler() const {
         return context_.routine && !context_.routine->routineDecl->errors.empty();

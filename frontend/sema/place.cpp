@@ -34,7 +34,7 @@ Place Places::place(const Expr& e, const Type* handle) {
 
 Place Places::namePlace(const NameExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.setType(*program_.errorType);
     Place place;
     place.name = &e;
     if (!isName(e.name)) return place;
@@ -67,7 +67,7 @@ Place Places::namePlace(const NameExpr& e, const Type* handle) {
     }
     place.root = data;
     result.symbol = data;
-    result.type = data->type;
+    setType(e, data->type);
     if (data->dataKind == DataKind::Const && data->storage != Storage::Parameter &&
         data->storage != Storage::Signal) {
         data_.ensureValue(*data);
@@ -102,7 +102,7 @@ void Places::checkIndex(const Expr& index, int32_t dimension, int64_t& value) {
 
 Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.setType(*program_.errorType);
     Place place;
     if (!isPlaceExpr(*e.base)) {
         expressions_.visitLoose(*e.base);
@@ -119,7 +119,7 @@ Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
     }
     place = this->place(*e.base, handle);
     place.whole = false;
-    const DataType type = info(*e.base).type;
+    const DataType type = info(*e.base).type();
     const bool error = type.type->kind == TypeKind::Error;
     const ConstValue* constant = info(*e.base).constant;
     const bool countOk = type.rank == e.indices.size();
@@ -142,29 +142,14 @@ Place Places::indexPlace(const IndexExpr& e, const Type* handle) {
             {text(*e.base), counted(e.indices.size(), "index", "indexes"), counted(type.rank, "dimension")});
     }
     if (!countOk) return {};
-    result.type = {type.type, 0, {}};
+    result.setType(*type.type);
     if (constant && constant->kind != ConstValue::Kind::None) result.constant = folding_.partOf(*constant);
     return place;
 }
 
-// The index of a component, or -1. Records with very many of them get a table.
-int Places::findComponent(const Type& record, std::string_view name) {
-    constexpr size_t kMany = 64;
-    const std::vector<Type::Component>& all = record.base()->components;
-    if (all.size() < kMany) return record.findComponent(name);
-    if (routine_.wideRecord != record.base()) {
-        routine_.wideRecord = record.base();
-        routine_.wideComponents.clear();
-        for (size_t i = 0; i < all.size(); ++i)
-            routine_.wideComponents.emplace(foldName(all[i].name), static_cast<int>(i));
-    }
-    const auto found = routine_.wideComponents.find(foldName(name));
-    return found == routine_.wideComponents.end() ? -1 : found->second;
-}
-
 Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     ExprInfo& result = info(e);
-    result.type = {program_.errorType, 0, {}};
+    result.setType(*program_.errorType);
     Place place;
     if (!isPlaceExpr(*e.base)) {
         expressions_.visitLoose(*e.base);
@@ -173,33 +158,33 @@ Place Places::componentPlace(const ComponentExpr& e, const Type*) {
     place = this->place(*e.base);
     place.whole = false;
     const ExprInfo& base = info(*e.base);
-    if (base.type.type->kind == TypeKind::Error || !isName(e.name)) return {};
-    if (base.type.rank > 0) {
+    if (base.type().type->kind == TypeKind::Error || !isName(e.name)) return {};
+    if (base.type().rank > 0) {
         report(say::ComponentOfArray, range(e.name), {text(e.name)});
         return {};
     }
-    if (base.type.type->kind != TypeKind::Record) {
+    if (base.type().type->kind != TypeKind::Record) {
         report(say::ComponentOfNonRecord, range(e.name), {text(e.name), typeName(base)},
                {Misfit::NotRecord, e});
         return {};
     }
     const std::string_view name = context_.tree->text(e.name);
-    const int component = findComponent(*base.type.type, name);
-    if (component < 0 && base.type.type->base()->unclear) return {}; // it may be among what could not be read
+    const int component = base.type().type->findComponent(name);
+    if (component < 0 && base.type().type->base()->unclear)
+        return {}; // it may be among what could not be read
     if (component < 0) {
-        std::string meant = suggestions_.deeperComponent(*base.type.type, name);
-        if (const Type::Component* near = suggestions_.nearComponent(*base.type.type, name);
+        std::string meant = suggestions_.deeperComponent(*base.type().type, name);
+        if (const Type::Component* near = suggestions_.nearComponent(*base.type().type, name);
             near && meant.empty())
             meant = near->name;
         diag::Diagnostic& d =
             report(say::UnknownComponent, range(e.name),
-                   {text(e.name), base.type.type->name, meant.empty() ? meant : didYouMean(meant)});
+                   {text(e.name), base.type().type->name, meant.empty() ? meant : didYouMean(meant)});
         if (!meant.empty()) d.fix(range(e.name), meant, false);
         return {};
     }
     const auto index = static_cast<size_t>(component);
-    result.component = component;
-    result.type = {base.type.type->base()->components[index].type, 0, {}};
+    result.setType(*base.type().type->base()->components[index].type);
     if (base.constant && index < base.constant->members().size())
         result.constant = folding_.partOf(base.constant->members()[index]);
     return place;

@@ -11,8 +11,6 @@ class Places : CheckerPart {
 
     /// `handle`: the type of signal or other configured object that the context asks for, or null.
     Place place(const syntax::Expr& e, const Type* handle = nullptr);
-    /// Its index, or -1.
-    int findComponent(const Type& record, std::string_view name);
 
   private:
     Place namePlace(const syntax::NameExpr& e, const Type* handle);

@@ -123,7 +123,7 @@ Remedy Remedies::remedyFor(const Expr& whole, const DataType& found, const DataT
     if (from == TypeKind::String && to == TypeKind::Bool) return {": StrToVal reads a value from a text", ""};
     if (e.kind == NodeKind::Component && found.rank == 0) { // "p10.trans" where "p10" would do
         const Expr& record = *as<ComponentExpr>(e).base;
-        const DataType& base = info(record).type;
+        const DataType& base = info(record).type();
         if (base.rank == 0 && base.type && base.type->base() == want.type->base())
             return {didYouMean(inWords(record)), written(record)};
     }
@@ -185,7 +185,7 @@ std::string operatorRemedy(BinaryOp op, Typed left, Typed right) {
     const bool texts[] = {left.isScalar(TypeKind::String), right.isScalar(TypeKind::String)};
     if (texts[0] && texts[1])
         return op >= BinaryOp::Lt && op <= BinaryOp::Ge ? ": compare texts by StrOrder" : "";
-    if (!texts[0] && !texts[1]) return targetRemedy(op, left.info->type);
+    if (!texts[0] && !texts[1]) return targetRemedy(op, left.info->type());
     if (op != BinaryOp::Add) return {};
     const Typed other = texts[0] ? right : left;
     if (other.isScalar(TypeKind::Num)) return ": make a text of the number with NumToStr";
@@ -224,9 +224,9 @@ void Remedies::fixCall(diag::Diagnostic& diagnostic, const Expr& e, const std::s
 }
 
 std::string numDnumRemedy(Typed t, const DataType& want) {
-    if (t.info->type.rank > 0 || want.rank > 0) return {};
-    if (t.info->type.type->kind == TypeKind::Num && want.type->kind == TypeKind::Dnum) return "NumToDnum";
-    if (t.info->type.type->kind == TypeKind::Dnum && want.type->kind == TypeKind::Num) return "DnumToNum";
+    if (t.info->type().rank > 0 || want.rank > 0) return {};
+    if (t.info->type().type->kind == TypeKind::Num && want.type->kind == TypeKind::Dnum) return "NumToDnum";
+    if (t.info->type().type->kind == TypeKind::Dnum && want.type->kind == TypeKind::Num) return "DnumToNum";
     return {};
 }
 

@@ -168,7 +168,7 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     if (symbol.dataKind == DataKind::Pers && usable) {
         if (const Expr* culprit = findNonLiteral(init)) {
             expressions_.visitLoose(init);
-            if (info(*culprit).type.type->kind != TypeKind::Error) // not known, which is reported
+            if (info(*culprit).type().type->kind != TypeKind::Error) // not known, which is reported
                 report(say::NotLiteral, range(*culprit), {symbol.name});
             return;
         }
@@ -180,8 +180,8 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Typed t = expressions_.expr(init, &want, slot);
     const bool cycle = symbol.valueProgress == Progress::Done;
     if (!expressions_.fits(init, t, want)) {
-        const auto names = typeNames(t.info->type, want);
-        const Remedy remedy = remedies_.remedyFor(init, t.info->type, want);
+        const auto names = typeNames(t.info->type(), want);
+        const Remedy remedy = remedies_.remedyFor(init, t.info->type(), want);
         remedies_.offer(report(say::InitialValueType, range(init), {names[0], names[1], symbol.name},
                                {Misfit::Type, init}),
                         init, remedy);

@@ -118,6 +118,7 @@ void TypeResolver::resolveRecord(Type& type, const RecordDecl& decl) {
     }
     type.leaves = static_cast<uint32_t>(std::max<uint64_t>(leaves, 1));
     type.literalShape = literalShape(type);
+    type.sortComponents();
 }
 
 void TypeResolver::resolveAlias(Type& type, const AliasDecl& decl) {

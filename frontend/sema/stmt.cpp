@@ -199,14 +199,14 @@ bool Statements::forStmt(const ForStmt& s) {
 // Values of all cases first: a group signal as subject takes its numeric type from them.
 void Statements::testValues(const TestStmt& s, Typed subject) {
     std::vector<std::pair<const Expr*, Typed>> values;
-    const DataType& type = subject.info->type; // changes when a value decides between num and dnum
+    const DataType& type = subject.info->type(); // changes when a value decides between num and dnum
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
         for (const Expr* value : c->values) {
             const Typed t = expressions_.expr(*value, &type);
             if (t.isError() || !known) continue;
             const bool decides = subject.flex != Flex::None && t.flex == Flex::None &&
-                                 t.info->type.rank == 0 && t.info->type.type->isNumeric();
+                                 t.info->type().rank == 0 && t.info->type().type->isNumeric();
             if (decides) {
                 expressions_.settle(*s.subject, t.base());
                 subject.flex = Flex::None;
@@ -217,8 +217,8 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
     std::unordered_set<std::string> seen;
     for (const auto& [value, t] : values) {
         if (!expressions_.fits(*value, t, type)) {
-            const auto names = typeNames(t.info->type, subject.info->type);
-            const Remedy remedy = remedies_.remedyFor(*value, t.info->type, type);
+            const auto names = typeNames(t.info->type(), subject.info->type());
+            const Remedy remedy = remedies_.remedyFor(*value, t.info->type(), type);
             remedies_.offer(
                 report(say::TestValueType, range(*value), {names[0], names[1]}, {Misfit::Type, *value}),
                 *value, remedy);
@@ -239,7 +239,7 @@ bool Statements::testStmt(const TestStmt& s) {
     Typed subject;
     if (s.subject) {
         subject = expressions_.expr(*s.subject);
-        const DataType& type = subject.info->type;
+        const DataType& type = subject.info->type();
         if (!subject.isError() && (type.rank > 0 || !isValueType(*type.type))) {
             report(say::TestSubjectType, range(*s.subject), {typeName(type)});
             subject = expressions_.errorExpr(*s.subject);
@@ -270,18 +270,18 @@ void Statements::assign(const AssignStmt& s) {
         return;
     }
     scopes_.markAssigned(*target.root);
-    const DataType want = info(*s.target).type;
+    const DataType want = info(*s.target).type();
     const Typed value = expressions_.expr(*s.value, &want);
     if (expressions_.fits(*s.value, value, want)) return;
     const std::string conversion = numDnumRemedy(value, want);
-    const auto names = typeNames(value.info->type, want);
+    const auto names = typeNames(value.info->type(), want);
     if (!conversion.empty()) {
         remedies_.fixCall(report(say::NumDnumAssign, range(*s.value), {names[0], names[1], conversion},
                                  {Misfit::Type, *s.value}),
                           *s.value, conversion, conversion == "NumToDnum");
         return;
     }
-    const Remedy remedy = remedies_.remedyFor(*s.value, value.info->type, want);
+    const Remedy remedy = remedies_.remedyFor(*s.value, value.info->type(), want);
     diag::Diagnostic& d =
         report(say::AssignType, range(*s.value), {names[0], names[1]}, {Misfit::Type, *s.value});
     remedies_.offer(d, *s.value, remedy);
@@ -331,7 +331,7 @@ bool Statements::assignsResult(const Expr& target) {
 
 bool Statements::assignable(const Place& place, const Expr& target) {
     const DataSymbol& root = *place.root;
-    const Type& type = *info(target).type.type;
+    const Type& type = *info(target).type().type;
     const bool parameter = root.storage == Storage::Parameter;
     if (type.kind == TypeKind::Switch) {
         report(say::SwitchAsValue, range(target), {text(target)}); // no value to assign either
@@ -502,7 +502,7 @@ bool Statements::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
     if (context_.tree->tokens[name + 1].kind != TokenKind::Semicolon || !isName(part) ||
         sign.begin != own.end || range(part).begin != sign.end || data->type.rank > 0 ||
         data->type.type->kind != TypeKind::Record || scopes_.lookup(idOf(part)) ||
-        places_.findComponent(*data->type.type, context_.tree->text(part)) < 0)
+        data->type.type->findComponent(context_.tree->text(part)) < 0)
         return false;
     report(say::UnexpectedToken, sign, {"';'", "'.' before a component"}).fix(sign, ".");
     scopes_.declareUnknown(idOf(part));

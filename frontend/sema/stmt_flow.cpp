@@ -45,8 +45,8 @@ void FlowStatements::returnStmt(const ReturnStmt& s) {
     }
     const Typed t = expressions_.expr(*s.value, &routine.returnType);
     if (expressions_.fits(*s.value, t, routine.returnType)) return;
-    const auto names = typeNames(t.info->type, routine.returnType);
-    const Remedy remedy = remedies_.remedyFor(*s.value, t.info->type, routine.returnType);
+    const auto names = typeNames(t.info->type(), routine.returnType);
+    const Remedy remedy = remedies_.remedyFor(*s.value, t.info->type(), routine.returnType);
     remedies_.offer(report(say::ReturnType, range(*s.value), {names[0], names[1], routine.name},
                            {Misfit::Type, *s.value}),
                     *s.value, remedy);
@@ -128,7 +128,7 @@ void FlowStatements::connectTarget(const Expr& target) {
     const Place found = places_.place(target);
     if (!found.root) return;
     DataSymbol& root = *found.root;
-    const DataType& type = info(target).type;
+    const DataType& type = info(target).type();
     const bool isUnknown = type.type->kind == TypeKind::Error; // not declared, which is reported
     const bool declared = program_.typeOf(KnownType::Interrupt) != nullptr;
     bool isInterrupt = type.rank == 0 && (!declared || isUnknown);

@@ -52,8 +52,7 @@ long numberInSeries(std::string_view folded) {
 
 } // namespace
 
-Suggestions::Suggestions(State& state, const Parts& parts)
-    : CheckerPart(state), places_(parts.places), scopes_(parts.scopes) {}
+Suggestions::Suggestions(State& state, const Parts& parts) : CheckerPart(state), scopes_(parts.scopes) {}
 
 // "v110" and "z25": of speeds and zones, the next ones that are predefined.
 std::string Suggestions::inSeries(std::string_view written) {
@@ -139,7 +138,7 @@ std::string Suggestions::deeperComponent(const Type& record, std::string_view na
     std::string found;
     for (const Type::Component& part : record.base()->components) {
         if (part.type->base()->kind != TypeKind::Record) continue;
-        const int inner = places_.findComponent(*part.type, name);
+        const int inner = part.type->findComponent(name);
         if (inner < 0) continue;
         if (!found.empty()) return {};
         found = part.name + "." + part.type->base()->components[static_cast<size_t>(inner)].name;

@@ -30,7 +30,6 @@ class Suggestions : CheckerPart {
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
   private:
-    Places& places_;
     Scopes& scopes_;
 };
 

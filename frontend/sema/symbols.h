@@ -77,7 +77,10 @@ struct TypeSymbol : Symbol {
         fresh.users = users;
         fresh.used = users > 0;
         fresh.type = type;
-        if (type) *type = Type{};
+        if (type) {
+            type->~Type();
+            new (type) Type();
+        }
         *this = std::move(fresh);
     }
 };

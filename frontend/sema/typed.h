@@ -16,9 +16,9 @@ enum class Flex : uint8_t {
 struct Typed {
     ExprInfo* info = nullptr;
     Flex flex = Flex::None;
-    const Type* base() const { return info->type.type->base(); }
-    bool isError() const { return info->type.type->kind == TypeKind::Error; }
-    bool isScalar(TypeKind kind) const { return info->type.rank == 0 && info->type.type->kind == kind; }
+    const Type* base() const { return info->type().type->base(); }
+    bool isError() const { return info->type().type->kind == TypeKind::Error; }
+    bool isScalar(TypeKind kind) const { return info->type().rank == 0 && info->type().type->kind == kind; }
 };
 
 /// A reference to data or a part of it.

@@ -9,7 +9,7 @@ namespace rapid::sema {
 
 std::string typeName(const DataType& type);
 inline std::string typeName(const ExprInfo& info) {
-    return typeName(info.type);
+    return typeName(info.type());
 }
 /// The names of two types that are not the same: alike, they get their modules' names, "cell:part".
 std::array<std::string, 2> typeNames(const DataType& found, const DataType& wanted);

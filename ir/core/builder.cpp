@@ -22,13 +22,13 @@ Inst makeIndexed(Op op, TypeId type, uint32_t index) {
 
 Inst makeInt(TypeId type, int64_t value) {
     Inst inst = make(Op::Const, type);
-    inst.integer = value;
+    inst.setInteger(value);
     return inst;
 }
 
 Inst makeFloat(TypeId type, double number) {
     Inst inst = make(Op::Const, type);
-    inst.number = number;
+    inst.setNumber(number);
     return inst;
 }
 
@@ -101,6 +101,7 @@ void Builder::beginShared() {
     sharedIn_ = block_;
     null_ = false_ = kNone;
     globalAddresses_.clear();
+    localAddresses_.clear();
 }
 
 ValueId Builder::shared(ValueId& known, Inst inst) {
@@ -122,7 +123,9 @@ ValueId Builder::param(uint32_t index) {
     return emit(makeIndexed(Op::ParamVal, routine_.params[index].type, index));
 }
 ValueId Builder::localAddr(uint32_t local) {
-    return emit(makeIndexed(Op::LocalAddr, kPtr, local));
+    beginShared();
+    return shared(localAddresses_.try_emplace(local, kNone).first->second,
+                  makeIndexed(Op::LocalAddr, kPtr, local));
 }
 ValueId Builder::globalAddr(uint32_t global) {
     beginShared();
@@ -213,20 +216,20 @@ ValueId Builder::callNative(uint32_t native, std::vector<ValueId> args) {
 
 void Builder::br(BlockId target) {
     Inst inst = make(Op::Br);
-    inst.target[0] = target;
+    inst.target(0) = target;
     emit(std::move(inst));
 }
 void Builder::condBr(ValueId cond, BlockId ifTrue, BlockId ifFalse) {
     Inst inst = make(Op::CondBr, kVoid, {cond});
-    inst.target[0] = ifTrue;
-    inst.target[1] = ifFalse;
+    inst.target(0) = ifTrue;
+    inst.target(1) = ifFalse;
     emit(std::move(inst));
 }
 void Builder::switchOn(ValueId value, std::vector<SwitchCase> cases, BlockId otherwise) {
     Inst inst = make(Op::Switch, kVoid, {value});
     inst.index = static_cast<uint32_t>(routine_.caseLists.size());
     routine_.caseLists.push_back(std::move(cases));
-    inst.target[0] = otherwise;
+    inst.target(0) = otherwise;
     emit(std::move(inst));
 }
 void Builder::ret() {

@@ -73,10 +73,10 @@ BlockList successors(const Routine& routine, BlockId block) {
     const Inst& last = routine.insts[insts.back()];
     if (familyOf(last.op) != Family::End) return result;
     switch (as<EndOp>(last.op)) {
-    case EndOp::Br: return {last.target[0]};
-    case EndOp::CondBr: return {last.target[0], last.target[1]};
+    case EndOp::Br: return {last.target(0)};
+    case EndOp::CondBr: return {last.target(0), last.target(1)};
     case EndOp::Switch:
-        result.push_back(last.target[0]);
+        result.push_back(last.target(0));
         for (const SwitchCase& entry : routine.caseLists[last.index])
             result.push_back(entry.target);
         return result;

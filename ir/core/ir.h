@@ -6,6 +6,7 @@
 // ir/LANGREF.md.
 
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -99,13 +100,17 @@ struct SwitchCase {
     BlockId target = kNone;
 };
 
-/// Programs have millions: fields that no instruction needs together share their place.
+/// Programs have millions: what no instruction needs together shares its place.
 struct Inst {
-    union {
-        double number;       ///< Const: F32, F64
-        int64_t integer = 0; ///< Const: Bool, Ptr, and integers, sign-extended
-        BlockId target[2];   ///< Br, CondBr, Switch; Br and Switch have one
-    };
+    /// Const: the value of F32 and F64, and of Bool, Ptr (0) and integers, sign-extended. Set after the operands.
+    double number() const { return constant<double>(); }
+    int64_t integer() const { return constant<int64_t>(); }
+    void setNumber(double value) { std::memcpy(operands.room(), &value, sizeof value); }
+    void setInteger(int64_t value) { std::memcpy(operands.room(), &value, sizeof value); }
+    /// Br, CondBr, Switch: where it jumps; Br and Switch have one target. Set after the operands.
+    BlockId& target(size_t i) { return operands.room()[i]; }
+    BlockId target(size_t i) const { return operands.room()[i]; }
+
     OperandList operands; ///< values
     union {
         /// Check, CheckFinite: error number; Charge, Safepoint: cost; Sysvar: SysvarKind; CondBr: 1 = seldom goes to target[1]
@@ -116,8 +121,15 @@ struct Inst {
     StmtId stmt = kNone; ///< statement it belongs to
     TypeId type = kVoid; ///< result type; for Load/Store/Copy/Zero/FieldAddr/ElemAddr: the type accessed
     Op op{};
+
+  private:
+    template <class T> T constant() const {
+        T value;
+        std::memcpy(&value, operands.room(), sizeof value);
+        return value;
+    }
 };
-static_assert(sizeof(Inst) <= 40);
+static_assert(sizeof(Inst) <= 32);
 
 // ---- Statements ------------------------------------------------------------------------------------------
 
@@ -212,8 +224,8 @@ struct Routine {
     template <class Visit> void visitTargets(Inst& last, const Visit& visit) {
         const bool isSwitch = last.op == Op::Switch, isBranch = last.op == Op::CondBr;
         if (!isSwitch && !isBranch && last.op != Op::Br) return;
-        visit(last.target[0]);
-        if (isBranch) visit(last.target[1]);
+        visit(last.target(0));
+        if (isBranch) visit(last.target(1));
         if (!isSwitch) return;
         for (SwitchCase& entry : caseLists[last.index])
             visit(entry.target);
@@ -468,7 +480,7 @@ class Builder {
     StmtId stmt_ = kNone;
     BlockId sharedIn_ = kNone; ///< the block that those below are in
     ValueId null_ = kNone, false_ = kNone;
-    std::unordered_map<uint32_t, ValueId> globalAddresses_;
+    std::unordered_map<uint32_t, ValueId> globalAddresses_, localAddresses_;
 };
 
 } // namespace ir

@@ -18,7 +18,10 @@ class OperandList {
     OperandList() = default;
     OperandList(std::initializer_list<ValueId> ids) { assign(ids.begin(), ids.size()); }
     OperandList(const std::vector<ValueId>& ids) { assign(ids.data(), ids.size()); }
-    OperandList(const OperandList& other) { assign(other.data(), other.size()); }
+    OperandList(const OperandList& other) {
+        std::copy_n(other.few_, kFew, few_); // with what lies beside the operands
+        assign(other.data(), other.size());
+    }
     OperandList(OperandList&& other) noexcept { swap(other); }
     OperandList& operator=(OperandList other) noexcept {
         swap(other);
@@ -36,6 +39,10 @@ class OperandList {
     ValueId* end() { return data() + size_; }
     ValueId operator[](size_t i) const { return data()[i]; }
     ValueId& operator[](size_t i) { return data()[i]; }
+
+    /// Room beside at most one operand, for what the instruction has besides: its constant, or where it jumps.
+    ValueId* room() { return few_ + 1; }
+    const ValueId* room() const { return few_ + 1; }
 
     void clear() {
         if (isLong()) delete[] many();

@@ -24,7 +24,7 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::valueRange(const Expr&
 std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOf(const Expr& outer, bool ofValue) const {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
-    if (!facts.type.type || facts.type.isArray() || facts.type.type->base()->kind != sema::TypeKind::Num)
+    if (facts.type().isArray() || facts.type().type->base()->kind != sema::TypeKind::Num)
         return std::nullopt;
     if (facts.constant && facts.constant->kind == sema::ConstValue::Kind::Number) {
         const double v = facts.constant->number;

@@ -126,7 +126,7 @@ RoutineLowering::Place RoutineLowering::elementPlace(const IndexExpr& expr) {
 /// As place(), but a signal that the context reads as a number gets its value into a temporary.
 RoutineLowering::Place RoutineLowering::place(const Expr& outer) {
     const Expr& expr = unparen(outer);
-    const sema::DataType& type = info(expr).type;
+    const sema::DataType& type = info(expr).type();
     if (type.type && type.type->isNumeric() && !type.isArray() && namesSignal(expr)) {
         Place p;
         p.type = type;
@@ -144,7 +144,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
         reachPlaceholder(expr);
         Place none;
         none.addr = b_.nullPtr();
-        none.type = info(expr).type;
+        none.type = info(expr).type();
         return none;
     }
     switch (expr.kind) {
@@ -158,7 +158,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     case NodeKind::Component: {
         const auto& component = as<ComponentExpr>(expr);
         const Place base = place(*component.base);
-        const int number = info(expr).component;
+        const int number = base.type.type->findComponent(module_->tree->text(component.name));
         Place p;
         p.type = scalarType(base.type.type->base()->components[static_cast<size_t>(number)].type);
         p.addr = b_.fieldAddr(program_.irType(base.type.type), base.addr, static_cast<uint32_t>(number));
@@ -168,7 +168,7 @@ RoutineLowering::Place RoutineLowering::reference(const Expr& outer) {
     }
     // A value without a place of its own gets a temporary one.
     Place p;
-    p.type = info(expr).type;
+    p.type = info(expr).type();
     if (p.type.isArray() && !isOfKnownSize(expr, p.type)) return arrayTemporary(expr);
     const ir::TypeId type = program_.irType(p.type);
     if (info(expr).constant && !program_.module().isScalar(type) && !program_.stepping()) {

@@ -87,7 +87,7 @@ void RoutineLowering::storeArray(const Expr& outer, const Place& target) {
 /// An aggregate some of whose rows are conformant parameters, on the stack until the routine returns.
 RoutineLowering::Place RoutineLowering::arrayTemporary(const Expr& expr) {
     Place array;
-    array.type = info(expr).type;
+    array.type = info(expr).type();
     const Expr* row = &expr;
     for (int k = 0; k < array.type.rank; ++k) {
         if (row->kind == NodeKind::Aggregate) {
@@ -120,7 +120,7 @@ void RoutineLowering::assignArray(const Expr& value, const Place& target, const 
 }
 
 bool RoutineLowering::isOfKnownSize(const Expr& value, const sema::DataType& target) const {
-    return sizeIsKnown(target) && sizeIsKnown(info(value).type);
+    return sizeIsKnown(target) && sizeIsKnown(info(value).type());
 }
 
 } // namespace rapid::lower

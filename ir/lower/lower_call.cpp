@@ -27,10 +27,10 @@ ir::ValueId RoutineLowering::argumentAddress(const BoundArg& arg) {
         const bool reference = value.kind == NodeKind::Name || value.kind == NodeKind::Index ||
                                value.kind == NodeKind::Component;
         const bool sameShape = !info(value).constant || arg.param->mode != ParamMode::In ||
-                               info(value).type.type->base() == wanted.type->base();
+                               info(value).type().type->base() == wanted.type->base();
         if (reference && sameShape) return place(value);
         Place temporary;
-        temporary.type = wanted.isArray() ? info(value).type : wanted;
+        temporary.type = wanted.isArray() ? info(value).type() : wanted;
         if (info(value).constant && arg.param->mode == ParamMode::In && !program_.stepping()) {
             temporary.addr = constantAddress(*info(value).constant, temporary.type);
             return temporary;

@@ -49,7 +49,7 @@ void RoutineLowering::lowerOperand(const Expr& outer, bool asDnum) {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
     if (facts.constant && facts.constant->kind != sema::ConstValue::Kind::Aggregate) {
-        const bool isBool = facts.type.type->base()->kind == TypeKind::Bool;
+        const bool isBool = facts.type().type->base()->kind == TypeKind::Bool;
         const double number = isBool ? facts.constant->boolean : facts.constant->number;
         b_.callNative(program_.support(Support::rt_conditionValue),
                       {b_.constF64(asDnum ? number : static_cast<float>(number))});
@@ -70,13 +70,13 @@ void RoutineLowering::lowerOperand(const Expr& outer, bool asDnum) {
         return;
     }
     if (expr.kind == NodeKind::Binary) return lowerCondition(as<BinaryExpr>(expr));
-    const TypeKind kind = facts.type.type->base()->kind;
+    const TypeKind kind = facts.type().type->base()->kind;
     const int32_t form = kind == TypeKind::Bool ? 0 : kind == TypeKind::Dnum ? 2 : 1;
     b_.callNative(program_.support(Support::rt_conditionData), {place(expr).addr, b_.constI32(form)});
 }
 
 void RoutineLowering::lowerCondition(const BinaryExpr& expr) {
-    const auto isDnum = [&](const Expr& e) { return info(e).type.type->base()->kind == TypeKind::Dnum; };
+    const auto isDnum = [&](const Expr& e) { return info(e).type().type->base()->kind == TypeKind::Dnum; };
     const bool asDnum = isArithmetic(expr.op) ? isDnum(expr) : isDnum(*expr.left) || isDnum(*expr.right);
     lowerOperand(*expr.left, asDnum);
     lowerOperand(*expr.right, asDnum);

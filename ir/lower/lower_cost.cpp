@@ -34,7 +34,7 @@ ir::StmtId RoutineLowering::firstStatement(ir::BlockId block) const {
             if (ir::familyOf(inst.op) != ir::Family::End) continue;
             // the choice between the BACKWARD part and the body, whose statements are charged
             if (inst.op != Op::Br && inst.op != Op::CondBr) return ir::kNone;
-            block = inst.target[inst.op == Op::Br ? 0 : 1];
+            block = inst.target(inst.op == Op::Br ? 0 : 1);
         }
     }
     return ir::kNone;

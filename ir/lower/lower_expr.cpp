@@ -55,7 +55,7 @@ ir::ValueId RoutineLowering::lowerBool(const Expr& expr) {
 ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
-    const ir::TypeId type = program_.irType(facts.type);
+    const ir::TypeId type = program_.irType(facts.type());
     if (facts.constant && facts.constant->kind != sema::ConstValue::Kind::Aggregate)
         return constantScalar(*facts.constant, type);
     switch (expr.kind) {
@@ -78,7 +78,7 @@ ir::ValueId RoutineLowering::lowerValue(const Expr& outer) {
         const auto& unary = as<UnaryExpr>(expr);
         if (unary.op == UnaryOp::Not) return b_.unary(Op::Not, lowerBool(*unary.operand));
         if (intRange(expr)) return b_.convert(Op::SIntToFloat, ir::kF32, lowerInt(expr));
-        const ValueId value = lowerValueAs(*unary.operand, facts.type.type);
+        const ValueId value = lowerValueAs(*unary.operand, facts.type().type);
         return unary.op == UnaryOp::Minus ? b_.unary(Op::FNeg, value) : value;
     }
     case NodeKind::Binary: return lowerBinary(as<BinaryExpr>(expr));
@@ -106,7 +106,7 @@ ir::ValueId RoutineLowering::lowerBinary(const BinaryExpr& expr) {
     default: break;
     }
     if (intRange(expr)) return b_.convert(Op::SIntToFloat, ir::kF32, lowerInt(expr));
-    const sema::Type* type = info(expr).type.type;
+    const sema::Type* type = info(expr).type().type;
     const ValueId a = lowerValueAs(*expr.left, type);
     const ValueId b = lowerValueAs(*expr.right, type);
     return lowerArithmetic(expr.op, a, b, type->base()->kind == TypeKind::Dnum);
@@ -119,7 +119,7 @@ ir::ValueId RoutineLowering::lowerArithmetic(BinaryOp op, ValueId a, ValueId b, 
     case BinaryOp::Mul: return b_.binary(Op::FMul, a, b);
     case BinaryOp::Div: {
         const ir::Inst& divisor = routine_.insts[b];
-        if (divisor.op != Op::Const || divisor.number == 0) {
+        if (divisor.op != Op::Const || divisor.number() == 0) {
             const ValueId zero = isDnum ? b_.constF64(0) : b_.constF32(0);
             b_.check(b_.binary(Op::FNe, b, zero), program_.errorNumber(LanguageError::Divisor));
         }
@@ -160,9 +160,9 @@ ir::ValueId RoutineLowering::lowerComparison(const BinaryExpr& expr) {
 
 ir::ValueId RoutineLowering::lowerEquality(const Expr& left, const Expr& right) {
     if (intRange(left) && intRange(right)) return b_.binary(Op::IEq, lowerInt(left), lowerInt(right));
-    sema::DataType type = info(left).type;
+    sema::DataType type = info(left).type();
     if (type.type->kind == TypeKind::Error || unparen(left).kind == NodeKind::Aggregate)
-        type = info(right).type;
+        type = info(right).type();
     const TypeKind kind = type.type->base()->kind;
     const TypeKind otherKind = baseType(right)->kind;
     const bool numeric = kind == TypeKind::Num || kind == TypeKind::Dnum || kind == TypeKind::SemiValue;
@@ -223,7 +223,7 @@ bool RoutineLowering::isCheap(const Expr& outer) const {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
     if (facts.constant) return true;
-    if (!facts.type.type || facts.type.isArray() || containsPlaceholder(expr)) return false;
+    if (facts.type().isArray() || containsPlaceholder(expr)) return false;
     switch (expr.kind) {
     case NodeKind::Name: {
         const auto* symbol = static_cast<const sema::DataSymbol*>(facts.symbol);
@@ -353,8 +353,8 @@ void RoutineLowering::lowerInto(const Expr& outer, const sema::DataType& type, V
 
 bool RoutineLowering::isJoin(const Expr& outer) const {
     const Expr& expr = unparen(outer);
-    return expr.kind == NodeKind::Binary && !info(expr).constant && !info(expr).type.isArray() &&
-           info(expr).type.type->base()->kind == TypeKind::String;
+    return expr.kind == NodeKind::Binary && !info(expr).constant && !info(expr).type().isArray() &&
+           info(expr).type().type->base()->kind == TypeKind::String;
 }
 
 /// Strings joined by +. `a + b + c` grows in one temporary string (`buffer`, once there is one); the native writes the

@@ -129,7 +129,7 @@ void RoutineLowering::lateValue(const BoundArg& arg, ValueId present, std::vecto
         out.push_back(typeAddress(p));
         return;
     }
-    const sema::DataType wanted = arg.param ? arg.param->type : info(unparen(*arg.value)).type;
+    const sema::DataType wanted = arg.param ? arg.param->type : info(unparen(*arg.value)).type();
     if (arg.param && passingOf(*arg.param) == Passing::Value) {
         const ir::TypeId type = program_.irType(wanted);
         const ValueId temporary = tempAddr(type);

@@ -89,7 +89,7 @@ std::string_view RoutineLowering::missingInName(const NameExpr& name, LanguageEr
     const sema::ExprInfo& facts = info(name);
     const bool isData = facts.symbol && facts.symbol->kind == sema::SymbolKind::Data;
     const auto* data = isData ? static_cast<const DataSymbol*>(facts.symbol) : nullptr;
-    if (!isUnknown(facts.type) && !(data && (lacksValue(*data) || lacksSize(*data)))) return {};
+    if (!isUnknown(facts.type()) && !(data && (lacksValue(*data) || lacksSize(*data)))) return {};
     error = data && hasPlaceholderIn(*data) ? LanguageError::Placeholder : LanguageError::UnknownData;
     const bool hasSize =
         data && data->decl && data->decl->kind == NodeKind::Data && !as<DataDecl>(*data->decl).dims.empty();
@@ -130,7 +130,7 @@ std::string_view RoutineLowering::missingInResult(const sema::RoutineSymbol& rou
 /// Of the record of an aggregate: a component of a type that nothing declares.
 std::string_view RoutineLowering::missingComponent(const Node& node) const {
     if (node.kind != NodeKind::Aggregate) return {};
-    const sema::DataType& type = info(as<AggregateExpr>(node)).type;
+    const sema::DataType& type = info(as<AggregateExpr>(node)).type();
     if (type.isArray()) return {};
     for (const sema::Type::Component& component : type.type->base()->components)
         if (component.type->base()->kind == sema::TypeKind::Error) return component.name;
@@ -154,10 +154,10 @@ std::string_view RoutineLowering::missingReference(const Node& node, LanguageErr
     error = LanguageError::UnknownData;
     if (node.kind == NodeKind::Component) {
         const auto& component = as<ComponentExpr>(node);
-        return isUnknown(info(component).type) ? module_->tree->text(component.name) : std::string_view();
+        return isUnknown(info(component).type()) ? module_->tree->text(component.name) : std::string_view();
     }
     if (node.kind != NodeKind::Aggregate) return {};
-    const sema::DataType& type = info(as<AggregateExpr>(node)).type;
+    const sema::DataType& type = info(as<AggregateExpr>(node)).type();
     const std::string_view text = module_->tree->source->text();
     const SourceRange range = module_->tree->range(node);
     constexpr uint32_t kShown = 40;
@@ -244,7 +244,7 @@ std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, Langua
     if (!bound) return name;
     LanguageError ignored = LanguageError::None;
     for (const BoundArg& arg : found->second.args)
-        if (arg.value && (isUnknown(info(*arg.value).type) || !missingReference(*arg.value, ignored).empty()))
+        if (arg.value && (isUnknown(info(*arg.value).type()) || !missingReference(*arg.value, ignored).empty()))
             return name;
     return {};
 }

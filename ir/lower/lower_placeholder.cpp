@@ -29,7 +29,7 @@ bool RoutineLowering::isIncomplete(const Expr& outer) const {
         // A comparison is a bool whatever its operands are.
         if (isIncomplete(*binary.left) || isIncomplete(*binary.right)) return true;
     }
-    return info(expr).type.type->kind == sema::TypeKind::Error && containsPlaceholder(expr);
+    return info(expr).type().type->kind == sema::TypeKind::Error && containsPlaceholder(expr);
 }
 
 /// An argument without which the call cannot be made.
@@ -72,7 +72,7 @@ void RoutineLowering::reachPlaceholder(const Node& node) {
 /// For its effects.
 void RoutineLowering::evaluate(const Expr& outer) {
     const Expr& expr = unparen(outer);
-    const sema::DataType& type = info(expr).type;
+    const sema::DataType& type = info(expr).type();
     if (info(expr).constant || (!callsAnything(expr) && !containsPlaceholder(expr))) return;
     const bool logical = expr.kind == NodeKind::Unary || expr.kind == NodeKind::Binary;
     if (type.type->kind == sema::TypeKind::Error) {

@@ -271,7 +271,7 @@ void RoutineLowering::lowerTest(const TestStmt& stmt) {
     if (lowerOpenHead(*stmt.subject)) return;
     startStatement(*stmt.subject, ir::StmtKind::Control);
     checkData(stmt); // what the cases compare with, too
-    const sema::DataType type = info(*stmt.subject).type;
+    const sema::DataType type = info(*stmt.subject).type();
     const ir::TypeId irType = program_.irType(type.type);
     const bool signal = namesSignal(*stmt.subject);
     const bool scalar = signal || (!type.isArray() && program_.module().isScalar(irType));

@@ -299,7 +299,7 @@ class RoutineLowering {
     // helpers
     const sema::FileFacts& facts() const { return *module_->facts; }
     const sema::ExprInfo& info(const Expr& expr) const { return (*module_->exprs)[expr.id]; }
-    const sema::Type* baseType(const Expr& expr) const { return info(expr).type.type->base(); }
+    const sema::Type* baseType(const Expr& expr) const { return info(expr).type().type->base(); }
     static const Expr& unparen(const Expr& expr);
     uint32_t temp(ir::TypeId type);
     ValueId tempAddr(ir::TypeId type) { return b_.localAddr(temp(type)); }

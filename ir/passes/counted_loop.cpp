@@ -32,7 +32,7 @@ class Recogniser {
     bool readHeader() {
         const std::vector<ValueId>& insts = routine_.blocks[loop_.header].insts;
         const Inst& last = inst(insts.back());
-        if (last.op != Op::CondBr || !loop_.contains[last.target[0]] || loop_.contains[last.target[1]])
+        if (last.op != Op::CondBr || !loop_.contains[last.target(0)] || loop_.contains[last.target(1)])
             return false;
         const Inst& test = inst(last.operands[0]);
         bool orders = test.op == Op::ILe || test.op == Op::ILt || test.op == Op::IGe || test.op == Op::IGt;
@@ -53,7 +53,7 @@ class Recogniser {
             if (sum.op != Op::IAdd || loadedLocal(sum.operands[0]) != result_.counter) return false;
             if (inst(sum.operands[1]).op != Op::Const) return false;
             result_.increment = store.operands[0];
-            result_.step = static_cast<int32_t>(inst(sum.operands[1]).integer);
+            result_.step = static_cast<int32_t>(inst(sum.operands[1]).integer());
             return true;
         }
         return false;

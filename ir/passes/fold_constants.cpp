@@ -186,8 +186,8 @@ class Folder {
     bool isConst(ValueId id) const { return routine_.insts[id].op == Op::Const; }
     Constant valueOf(ValueId id) const {
         const Inst& inst = routine_.insts[id];
-        if (isFloat(inst.type)) return {inst.type, inst.number, 0};
-        return {inst.type, 0, inst.integer};
+        if (isFloat(inst.type)) return {inst.type, inst.number(), 0};
+        return {inst.type, 0, inst.integer()};
     }
 
     bool visit(ValueId id) {
@@ -207,10 +207,10 @@ class Folder {
     bool branch(Inst& inst) {
         if ((inst.op != Op::CondBr && inst.op != Op::Switch) || !isConst(inst.operands[0])) return false;
         const int64_t value = valueOf(inst.operands[0]).integer;
-        if (inst.op == Op::CondBr && value == 0) inst.target[0] = inst.target[1];
+        if (inst.op == Op::CondBr && value == 0) inst.target(0) = inst.target(1);
         if (inst.op == Op::Switch)
             for (const SwitchCase& entry : std::exchange(routine_.caseLists[inst.index], {}))
-                if (entry.value == value) inst.target[0] = entry.target;
+                if (entry.value == value) inst.target(0) = entry.target;
         inst.op = Op::Br;
         inst.operands.clear();
         return true;
@@ -234,9 +234,9 @@ class Folder {
         inst.type = type;
         inst.operands.clear();
         if (isFloat(type))
-            inst.number = out.number;
+            inst.setNumber(out.number);
         else
-            inst.integer = out.integer;
+            inst.setInteger(out.integer);
         inst.extra = 0;
         return true;
     }

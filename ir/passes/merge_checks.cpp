@@ -184,14 +184,14 @@ class CheckMerger {
         const ValueId fine = areFinite(sums, stmt, fast);
         const auto rest = static_cast<BlockId>(routine_.blocks.size());
         const ValueId branch = add(Op::CondBr, kVoid, {fine}, stmt);
-        routine_.insts[branch].target[0] = rest;
-        routine_.insts[branch].target[1] = rest + 1;
+        routine_.insts[branch].target(0) = rest;
+        routine_.insts[branch].target(1) = rest + 1;
         routine_.insts[branch].extra = 1; // the first is likely
         fast.push_back(branch);
         std::reverse(undo.begin(), undo.end());
         undo.insert(undo.end(), again.begin(), again.end());
         undo.push_back(add(Op::Br, kVoid, {}, stmt));
-        routine_.insts[undo.back()].target[0] = rest;
+        routine_.insts[undo.back()].target(0) = rest;
         routine_.blocks[b].insts = std::move(fast);
         routine_.blocks.push_back({routine_.blockName("finite"),
                                    {insts.begin() + static_cast<std::ptrdiff_t>(region.end), insts.end()}});

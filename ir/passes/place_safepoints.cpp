@@ -74,7 +74,7 @@ class Placer {
         }
         routine_.blocks.push_back(std::move(routine_.blocks[0]));
         Inst jump = make(Op::Br, kVoid);
-        jump.target[0] = moved;
+        jump.target(0) = moved;
         routine_.blocks[0] = {routine_.blockName("entry"), {add(std::move(jump), kNone)}};
     }
 
@@ -268,7 +268,7 @@ class Placer {
         StmtId stmt = terminator(edge.from).stmt;
         retarget(edge.to, block, edge.from);
         Inst jump = make(Op::Br, kVoid);
-        jump.target[0] = edge.to;
+        jump.target(0) = edge.to;
         ValueId safepoint = add(makeSafepoint(leastCost()), stmt);
         routine_.blocks.push_back({routine_.blockName("back"), {safepoint, add(std::move(jump), stmt)}});
     }

@@ -43,7 +43,7 @@ class Simplifier {
     void foldEqualTargets() {
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             Inst& last = terminator(b);
-            if (last.op != Op::CondBr || last.target[0] != last.target[1]) continue;
+            if (last.op != Op::CondBr || last.target(0) != last.target(1)) continue;
             last.op = Op::Br;
             last.operands.clear();
         }
@@ -72,7 +72,7 @@ class Simplifier {
             for (size_t steps = 0; steps < final.size(); ++steps) {
                 if (routine_.blocks[target].insts.size() != 1 || terminator(target).op != Op::Br) break;
                 if (target == routine_.errorHandler || target == routine_.undoHandler) break;
-                target = terminator(target).target[0];
+                target = terminator(target).target(0);
             }
             final[b] = target;
         }
@@ -90,7 +90,7 @@ class Simplifier {
         });
         for (BlockId b = 0; b < routine_.blocks.size(); ++b) {
             while (terminator(b).op == Op::Br) {
-                BlockId next = terminator(b).target[0];
+                BlockId next = terminator(b).target(0);
                 if (next == b || next == 0 || uses[next] != 1) break;
                 std::vector<ValueId>& insts = routine_.blocks[b].insts;
                 std::vector<ValueId>& tail = routine_.blocks[next].insts;

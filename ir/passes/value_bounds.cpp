@@ -172,7 +172,8 @@ ValueBounds::Bound ValueBounds::boundOf(const Inst& value) const {
 
 ValueBounds::Bound ValueBounds::boundOfLeaf(const Inst& value) const {
     if (value.op != Op::Const) return {largest(valueType(value)), false};
-    return {rounded(valueType(value), std::abs(value.number)), std::trunc(value.number) == value.number};
+    return {rounded(valueType(value), std::abs(value.number())),
+            std::trunc(value.number()) == value.number()};
 }
 
 /// Sums and products of numbers without fraction have none either: from some size on no number has one.
@@ -197,17 +198,17 @@ double ValueBounds::quotient(const Inst& division) const {
     const TypeId type = valueType(division);
     const ValueId divisor = division.operands[1];
     const double dividend = taken(division.operands[0]).magnitude;
-    if (inst(divisor).op == Op::Const && inst(divisor).number != 0)
-        return rounded(type, dividend / rounded(type, std::abs(inst(divisor).number)));
+    if (inst(divisor).op == Op::Const && inst(divisor).number() != 0)
+        return rounded(type, dividend / rounded(type, std::abs(inst(divisor).number())));
     return isAtLeastOne(divisor) ? dividend : kUnbounded;
 }
 
 bool ValueBounds::isZero(ValueId id) const {
-    return inst(id).op == Op::Const && inst(id).number == 0;
+    return inst(id).op == Op::Const && inst(id).number() == 0;
 }
 
 bool ValueBounds::isAtLeastOne(ValueId id) const {
-    if (inst(id).op == Op::Const) return std::abs(inst(id).number) >= 1;
+    if (inst(id).op == Op::Const) return std::abs(inst(id).number()) >= 1;
     return known_[id].notZero == block_ && taken(id).whole;
 }
 

@@ -96,6 +96,7 @@ class RoutineParser {
     bool blockHeader();
     bool instruction();
     bool body(Inst& inst);
+    bool constant(Inst& inst);
     bool sysvar(Inst& inst);
     bool call(Inst& inst, Fixup::Kind kind);
     bool switchOn(Inst& inst);

@@ -239,7 +239,7 @@ class RoutinePrinter {
         if (opInfo(inst.op).showsType) put(out_, " {}", typeName(inst.type));
         switch (opInfo(inst.op).form) {
         case Form::Plain: operands(inst); return;
-        case Form::Number: put(out_, " {}", number(inst.type, inst.number, inst.integer)); return;
+        case Form::Number: put(out_, " {}", number(inst.type, inst.number(), inst.integer())); return;
         case Form::Param:
         case Form::Local:
         case Form::TypeDesc:
@@ -261,10 +261,10 @@ class RoutinePrinter {
             put(out_, " {}", inst.extra);
             operands(inst);
             return;
-        case Form::Jump: put(out_, " b{}", inst.target[0]); return;
+        case Form::Jump: put(out_, " b{}", inst.target(0)); return;
         case Form::Branch:
             operands(inst);
-            put(out_, ", b{}, b{}", inst.target[0], inst.target[1]);
+            put(out_, ", b{}, b{}", inst.target(0), inst.target(1));
             return;
         case Form::Switch: switchOn(inst); return;
         }
@@ -279,7 +279,7 @@ class RoutinePrinter {
 
     void switchOn(const Inst& inst) {
         operands(inst);
-        put(out_, ", b{} [", inst.target[0]);
+        put(out_, ", b{} [", inst.target(0));
         const char* separator = "";
         for (const SwitchCase& entry : routine_.caseLists[inst.index])
             put(out_, "{}{}: b{}", std::exchange(separator, ", "), entry.value, entry.target);

@@ -155,7 +155,7 @@ bool RoutineParser::call(Inst& inst, Fixup::Kind kind) {
 }
 
 bool RoutineParser::switchOn(Inst& inst) {
-    if (!in_.punct(',') || !in_.block(inst.target[0]) || !in_.punct('[')) return false;
+    if (!in_.punct(',') || !in_.block(inst.target(0)) || !in_.punct('[')) return false;
     inst.index = static_cast<uint32_t>(routine_.caseLists.size());
     std::vector<SwitchCase>& cases = routine_.caseLists.emplace_back();
     while (!in_.isPunct(']')) {
@@ -174,13 +174,24 @@ bool RoutineParser::sysvar(Inst& inst) {
     return true;
 }
 
+bool RoutineParser::constant(Inst& inst) {
+    double number = 0;
+    int64_t integer = 0;
+    if (!in_.constant(inst.type, number, integer)) return false;
+    if (isFloat(inst.type))
+        inst.setNumber(number);
+    else
+        inst.setInteger(integer);
+    return true;
+}
+
 bool RoutineParser::body(Inst& inst) {
     if ((inst.op == Op::IAdd || inst.op == Op::IMul) && in_.takeWord("nsw")) inst.extra = 1;
     if (inst.op == Op::FAdd && in_.takeWord("loose")) inst.extra = 1;
     if (opInfo(inst.op).showsType && !in_.type(module_, inst.type)) return false;
     switch (opInfo(inst.op).form) {
     case Form::Plain: return values(inst);
-    case Form::Number: return in_.constant(inst.type, inst.number, inst.integer);
+    case Form::Number: return constant(inst);
     case Form::Param:
     case Form::Local:
     case Form::TypeDesc: return in_.unsignedInt(inst.index);
@@ -196,10 +207,10 @@ bool RoutineParser::body(Inst& inst) {
     case Form::CallRoutine: return call(inst, Fixup::Kind::Routine);
     case Form::CallNative: return call(inst, Fixup::Kind::Native);
     case Form::Cost: return in_.signedInt(inst.extra) && values(inst);
-    case Form::Jump: return in_.block(inst.target[0]);
+    case Form::Jump: return in_.block(inst.target(0));
     case Form::Branch:
-        return value(inst) && in_.punct(',') && in_.block(inst.target[0]) && in_.punct(',') &&
-               in_.block(inst.target[1]);
+        return value(inst) && in_.punct(',') && in_.block(inst.target(0)) && in_.punct(',') &&
+               in_.block(inst.target(1));
     case Form::Switch: return value(inst) && switchOn(inst);
     }
     return false;

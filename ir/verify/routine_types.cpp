@@ -90,10 +90,10 @@ void RoutineVerifier::typesOfLeaf(const Inst& inst) {
     switch (as<LeafOp>(inst.op)) {
     case LeafOp::Const:
         if (!module_.isScalar(inst.type) || inst.type == kVoid) add("constant that is not a scalar");
-        if (inst.type == kPtr && inst.integer != 0) add("the only pointer constant is 0");
+        if (inst.type == kPtr && inst.integer() != 0) add("the only pointer constant is 0");
         if (isInteger(inst.type) &&
-            signExtended(static_cast<uint64_t>(inst.integer), bitsOf(inst.type)) != inst.integer)
-            add(fmt::format("{} is not a value of {}", inst.integer, typeName(inst.type)));
+            signExtended(static_cast<uint64_t>(inst.integer()), bitsOf(inst.type)) != inst.integer())
+            add(fmt::format("{} is not a value of {}", inst.integer(), typeName(inst.type)));
         return;
     case LeafOp::ParamVal:
         if (inst.type != routine_.params[inst.index].type) add("type differs from the parameter's");

@@ -64,10 +64,10 @@ ir::Inst foldedConstant(const std::string& result, const std::string& lines) {
     return value;
 }
 double foldedResult(const std::string& result, const std::string& lines) {
-    return foldedConstant(result, lines).number;
+    return foldedConstant(result, lines).number();
 }
 int64_t foldedInteger(const std::string& result, const std::string& lines) {
-    return foldedConstant(result, lines).integer;
+    return foldedConstant(result, lines).integer();
 }
 /// Of an instruction on two integers of a type.
 int64_t foldedPair(const std::string& op, const std::string& type, int64_t a, int64_t b,
@@ -336,15 +336,15 @@ TEST_CASE("a const native with constant arguments is called by the compiler", "[
     const ir::Inst third =
         foldedCall("f32", "%0 = const f32 1\n%1 = native @\"rt_third\" (%0)\nret %1\n", codeOfNative);
     CHECK(third.op == Op::Const);
-    CHECK(third.number == static_cast<double>(1.0F / 3)); // in single precision, as the call computes it
+    CHECK(third.number() == static_cast<double>(1.0F / 3)); // in single precision, as the call computes it
     const std::string picked =
         "%1 = const f64 0.5\n%2 = const f32 7\n%3 = native @\"rt_pick\" (%0, %1, %2)\nret %3\n";
-    CHECK(foldedCall("f32", "%0 = const bool 1\n" + picked, codeOfNative).number == 0.5);
-    CHECK(foldedCall("f32", "%0 = const bool 0\n" + picked, codeOfNative).number == 7);
+    CHECK(foldedCall("f32", "%0 = const bool 1\n" + picked, codeOfNative).number() == 0.5);
+    CHECK(foldedCall("f32", "%0 = const bool 0\n" + picked, codeOfNative).number() == 7);
     const ir::Inst big =
         foldedCall("bool", "%0 = const f64 1e11\n%1 = native @\"rt_isBig\" (%0)\nret %1\n", codeOfNative);
     CHECK(big.op == Op::Const);
-    CHECK(big.integer == 1);
+    CHECK(big.integer() == 1);
 }
 
 TEST_CASE("calls whose result is not known to the compiler stay", "[ir]") {

@@ -150,20 +150,20 @@ TEST_CASE("literals take the numeric type of their context", "[sema]") {
     const Module& m = *p.tasks[0]->modules[0];
     const RoutineSymbol& main = routine(p, "main");
     const auto& first = syntax::as<syntax::AssignStmt>(bodyStmt(main, 0));
-    CHECK(p.info(m, *first.value).type.type == p.dnum);
+    CHECK(p.info(m, *first.value).type().type == p.dnum);
     CHECK(p.info(m, *first.value).constant->number == 0.1);
     const auto& second = syntax::as<syntax::AssignStmt>(bodyStmt(main, 1));
-    CHECK(p.info(m, *second.value).type.type == p.num);
+    CHECK(p.info(m, *second.value).type().type == p.num);
     CHECK(p.info(m, *second.value).constant->number == static_cast<double>(0.1f));
     const auto& sum =
         syntax::as<syntax::BinaryExpr>(*syntax::as<syntax::AssignStmt>(bodyStmt(main, 2)).value);
-    CHECK(p.info(m, sum).type.type == p.dnum);
-    CHECK(p.info(m, *sum.right).type.type == p.dnum);
+    CHECK(p.info(m, sum).type().type == p.dnum);
+    CHECK(p.info(m, *sum.right).type().type == p.dnum);
     REQUIRE(p.info(m, *sum.right).constant);
     CHECK(p.info(m, *sum.right).constant->number == 4);
     const auto& product = syntax::as<syntax::BinaryExpr>(*sum.right);
-    CHECK(p.info(m, *product.left).type.type == p.dnum);
-    CHECK(p.info(m, *product.right).type.type == p.dnum);
+    CHECK(p.info(m, *product.left).type().type == p.dnum);
+    CHECK(p.info(m, *product.right).type().type == p.dnum);
     const auto& test = syntax::as<syntax::CompactIfStmt>(bodyStmt(main, 3));
     const auto& equal = syntax::as<syntax::BinaryExpr>(*test.condition);
     CHECK(p.info(m, *equal.left).constant->number == 4294967297.0);
@@ -249,13 +249,13 @@ TEST_CASE("signals are values or handles by their place", "[sema]") {
     const Module& m = *p.tasks[0]->modules[0];
     const RoutineSymbol& main = routine(p, "main");
     const syntax::Expr& first = *syntax::as<syntax::AssignStmt>(bodyStmt(main, 0)).value;
-    CHECK(p.info(m, first).type.type == p.dnum);
+    CHECK(p.info(m, first).type().type == p.dnum);
     const auto& sum =
         syntax::as<syntax::BinaryExpr>(*syntax::as<syntax::AssignStmt>(bodyStmt(main, 1)).value);
-    CHECK(p.info(m, *sum.left).type.type == p.num);
-    CHECK(p.info(m, *sum.right).type.type == p.num);
+    CHECK(p.info(m, *sum.left).type().type == p.num);
+    CHECK(p.info(m, *sum.right).type().type == p.num);
     const BoundCall& call = p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 2));
-    CHECK(p.info(m, *call.args[2].value).type.type->kind == TypeKind::SemiValue);
+    CHECK(p.info(m, *call.args[2].value).type().type->kind == TypeKind::SemiValue);
     REQUIRE(p.tasks[0]->signals.size() == 2);
     CHECK(p.tasks[0]->signals[0]->storage == Storage::Signal);
     CHECK(p.tasks[0]->signals[1]->name == "DO_1");
@@ -317,13 +317,13 @@ TEST_CASE("aggregates have the type that their context gives", "[sema]") {
     const Module& m = *p.tasks[0]->modules[0];
     const RoutineSymbol& main = routine(p, "main");
     const ExprInfo& assigned = p.info(m, *syntax::as<syntax::AssignStmt>(bodyStmt(main, 0)).value);
-    CHECK(assigned.type.type == p.typeOf(KnownType::Position));
+    CHECK(assigned.type().type == p.typeOf(KnownType::Position));
     CHECK(assigned.constant == nullptr);
     const ExprInfo& list =
         p.info(m, *p.tasks[0]->modules[0]->facts->calls.at(&bodyStmt(main, 1)).args[0].value);
-    CHECK(list.type.rank == 1);
-    CHECK(list.type.dims[0] == 4);
-    CHECK(list.type.type == p.num);
+    CHECK(list.type().rank == 1);
+    CHECK(list.type().dims[0] == 4);
+    CHECK(list.type().type == p.num);
     REQUIRE(list.constant);
     CHECK(list.constant->members()[3].number == 4);
 }

@@ -263,7 +263,7 @@ bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
     const syntax::RoutineDecl* routine = draft.module != nullptr ? onlyRoutine(*draft.module) : nullptr;
     const syntax::Expr* value = routine != nullptr && !draft.isOrder() ? valueOf(*routine) : nullptr;
     if (value != nullptr) {
-        const sema::DataType& type = session_->program().info(*draft.module, *value).type;
+        const sema::DataType& type = session_->program().info(*draft.module, *value).type();
         if (type.rank == 0 && isValueType(type.type)) draft.valueType = type.type;
     }
     if (problem.empty() && (routine == nullptr || (!draft.isOrder() && value == nullptr)))
