@@ -301,6 +301,15 @@ class Rename(Language):
             self.refused("rename", "total", newName=new)
         self.refused("rename", "MoveJ", newName="go")
 
+    def test_letters_of_latin_1(self):
+        """Manual, letters: those of ISO 8859-1. A message has one line, whatever the name."""
+        edits = self.ask("rename", "total", newName="gr\u00f6\u00dfe")["documentChanges"][0]["edits"]
+        self.assertEqual({e["newText"] for e in edits}, {"gr\u00f6\u00dfe"})
+        for new, shown in (("\u03bbx", "'\u03bbx'"), ("sum\n", "'sum\\x0A'"), ("a\x00", "'a\\x00'")):
+            with self.assertRaises(ServerError) as refused:
+                self.ask("rename", "total", newName=new)
+            self.assertTrue(str(refused.exception).startswith(shown + " is not a name"), str(refused.exception))
+
     def test_files_of_the_workspace(self):
         path = self.write("other.modx", "MODULE other\n  PROC helper()\n    total := 1;\n  ENDPROC\nENDMODULE\n")
         self.client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": uri(path), "type": 1}]})

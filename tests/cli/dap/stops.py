@@ -104,6 +104,19 @@ def test_every_error(a):
     a.event("terminated")
 
 
+def test_every_error_means_unhandled_ones_too(a):
+    """Contract 5: `all` stops at errors that a handler takes, and at those that none takes."""
+    a.start("errors.modx", filters=["all"])
+    a.stopped("exception", HANDLED, "handled")
+    equal(a.ask("exceptionInfo", threadId=1)["breakMode"], "always")
+    a.go()
+    a.stopped("exception", UNHANDLED)
+    equal(a.ask("exceptionInfo", threadId=1)["breakMode"], "unhandled")
+    a.ask("setExceptionBreakpoints", filters=[])
+    a.go()
+    a.run_out(1)
+
+
 def test_chosen_errors(a):
     a.initialize()
     launched = a.send("launch", {"program": path("errors.modx")})
