@@ -262,6 +262,19 @@ def test_restart_frame(a):
     equal(a.run_out(), ["main", "main", "count 3"])
 
 
+def test_restart_of_the_outermost_frame(a):
+    """Manual 1.2.2, what happens at each event: after PP to routine variables have their initial values, persistents keep theirs."""
+    inside = line_of("frames.modx", "! inside")
+    a.start("frames.modx", [inside])
+    a.stopped("breakpoint", inside)
+    for variable in ("reset", "count"):
+        a.ask("evaluate", expression=f"{variable} := 7;", context="repl", frameId=a.frames()[0]["id"])
+    a.ask("restartFrame", frameId=a.frames()[2]["id"])
+    a.stopped("restart", line_of("frames.modx", "! main begins"), "main")
+    equal(a.value("reset"), "1")
+    equal(a.value("count"), "7")
+
+
 def test_breakpoint_locations(a):
     a.start("part.modx", stopOnEntry=True)
     a.stopped("entry")
