@@ -336,6 +336,14 @@ def test_realtime_wait_can_be_paused(a):
     a.ended()
 
 
+def test_pause_while_a_log_point_writes(a):
+    """Contract 12 and 15: a log message in an endless loop keeps no request waiting."""
+    a.start("endless.modx", [{"line": 5, "logMessage": "n is {n}"}])
+    a.event("output")
+    a.ask("pause", threadId=1)
+    a.stopped("pause")
+
+
 def test_condition_without_end(a):
     """pause ends the evaluation, and the program stops at the breakpoint."""
     line = line_of("part.modx", "! call")
