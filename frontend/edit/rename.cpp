@@ -357,6 +357,23 @@ class Renamer {
 
 } // namespace
 
+namespace {
+
+/// The name in a message of one line: control characters and DEL as `\xNN`.
+std::string shown(std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < ' ' || byte == 0x7F)
+            text += fmt::format("\\x{:02X}", byte);
+        else
+            text += c;
+    }
+    return text;
+}
+
+} // namespace
+
 std::string newNameProblem(std::string_view name, const sema::CheckedProgram& program, bool component) {
     const std::string text(name);
     const LexResult lexed = lex(text);
@@ -365,7 +382,9 @@ std::string newNameProblem(std::string_view name, const sema::CheckedProgram& pr
     if (word && isKeyword(lexed.tokens[0].kind))
         return fmt::format("'{}' is a word of the language: choose another name", name);
     if (!word || lexed.tokens[0].kind != TokenKind::Identifier)
-        return fmt::format("'{}' is not a name: expected letters, digits and '_', a letter first", name);
+        return fmt::format(
+            "'{}' is not a name: expected letters of ISO 8859-1, digits and '_', a letter first",
+            shown(name));
     if (characters(name) > kMaxNameLength)
         return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
     if (component) return {};

@@ -330,6 +330,19 @@ std::vector<Location> signalInConfiguration(const Snapshot& snapshot, std::strin
     return places;
 }
 
+std::vector<Location> signalInConfiguration(const Snapshot& snapshot, const Meaning& meaning,
+                                            bool withDeclaration) {
+    const sema::DataSymbol* data = dataOf(meaning.symbol);
+    if (!data || data->storage != sema::Storage::Signal) return {};
+    std::vector<Location> places = signalInConfiguration(snapshot, data->name);
+    if (withDeclaration) return places;
+    const SignalDefinition signal = findSignal(snapshot.configuration(), data->name);
+    std::erase_if(places, [&](const Location& place) {
+        return place.file == signal.file && place.range.begin == signal.name.begin;
+    });
+    return places;
+}
+
 std::vector<Use> configUsesAt(const Snapshot& snapshot, const std::shared_ptr<const SourceFile>& file,
                               uint32_t offset, const Cancel* cancel) {
     std::vector<Use> uses;

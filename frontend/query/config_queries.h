@@ -26,6 +26,9 @@ std::vector<Use> configUsesAt(const Snapshot& snapshot, const std::shared_ptr<co
                               uint32_t offset, const Cancel* cancel = nullptr);
 /// The places in configuration files that name a signal.
 std::vector<Location> signalInConfiguration(const Snapshot& snapshot, std::string_view name);
+/// The same of a name in a module; none when that does not mean a signal.
+std::vector<Location> signalInConfiguration(const Snapshot& snapshot, const Meaning& meaning,
+                                            bool withDeclaration);
 
 /// Sections with their instances: OutlineKind::Module and ::Constant.
 std::vector<OutlineSymbol> configOutline(std::string_view text);

@@ -163,6 +163,36 @@ class Push(LspCase):
         return text.count("\n", 0, offset), len(line.encode("utf-16-le")) // 2
 
 
+    def test_related_places_follow_an_edit_that_keeps_offsets(self):
+        """DiagnosticRelatedInformation.location: the place in the text as it is, also when the edit has as many bytes as it replaces."""
+        first = 'MODULE a\n\n  VAR string s := "ab"; PROC main()\n  ENDPROC\nENDMODULE\n'
+        second = "MODULE b\n  PROC main()\n  ENDPROC\nENDMODULE\n"
+        paths = self.write("a.modx", first), self.write("b.modx", second)
+        client = self.connect()
+        client.initialize([self.work()])
+        edited, other = client.open(paths[0], first), uri(paths[1])
+
+        def place_of_the_first():
+            client.settle()
+            found = [d for d in client.diagnostics[other]["diagnostics"] if d["severity"] == 1][0]
+            pulled = client.request("textDocument/diagnostic", {"textDocument": {"uri": other}})
+            self.assertEqual([i for i in pulled["items"] if i["severity"] == 1][0], found)
+            return found["relatedInformation"][0]["location"]["range"]["start"], pulled["resultId"]
+
+        client.published(edited, 1)
+        before, result = place_of_the_first()
+        self.assertEqual(before, {"line": 2, "character": 29})
+        client.change(edited, 2, ((1, 0), (2, 0), " "))  # a line less
+        client.published(edited, 2)
+        after, second_result = place_of_the_first()
+        self.assertEqual(after, {"line": 1, "character": 30})
+        client.change(edited, 3, ((1, 20), (1, 22), "\u00e4"))  # a character less
+        client.published(edited, 3)
+        last, third_result = place_of_the_first()
+        self.assertEqual(last, {"line": 1, "character": 29})
+        self.assertEqual(len({result, second_result, third_result}), 3)
+
+
 class Encodings(LspCase):
     TEXT = 'MODULE m\n  PROC main()\n    TPWrite "žluť 😀" + 1;\n  ENDPROC\nENDMODULE\n'
 

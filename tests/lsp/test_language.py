@@ -296,10 +296,29 @@ class Rename(Language):
         self.assertIn("\\amount:=n", new)
         self.assertIn("Present(amount)", new)
 
+    def test_strings_that_spell_the_name_are_shown(self):
+        """window/showMessage: text without a line end of its own."""
+        program = "MODULE m\n  PROC old()\n  ENDPROC\n  PROC main()\n    old;\n    %\"old\"%;\n  ENDPROC\nENDMODULE\n"
+        self.client.change(self.document, 2, program)
+        self.client.request("textDocument/rename", {**at(self.document, program, "old"), "newName": "fresh"})
+        shown = [n["params"]["message"] for n in self.client.notifications if n["method"] == "window/showMessage"]
+        self.assertEqual(len(shown), 1)
+        self.assertIn(':6:6: the string "old"', shown[0])
+        self.assertNotIn("\n", shown[0])
+
     def test_refused(self):
         for new in ("1x", "IF", "a" * 33, "a b", "", "limit", "report"):
             self.refused("rename", "total", newName=new)
         self.refused("rename", "MoveJ", newName="go")
+
+    def test_letters_of_latin_1(self):
+        """Manual, letters: those of ISO 8859-1. A message has one line, whatever the name."""
+        edits = self.ask("rename", "total", newName="gr\u00f6\u00dfe")["documentChanges"][0]["edits"]
+        self.assertEqual({e["newText"] for e in edits}, {"gr\u00f6\u00dfe"})
+        for new, shown in (("\u03bbx", "'\u03bbx'"), ("sum\n", "'sum\\x0A'"), ("a\x00", "'a\\x00'")):
+            with self.assertRaises(ServerError) as refused:
+                self.ask("rename", "total", newName=new)
+            self.assertTrue(str(refused.exception).startswith(shown + " is not a name"), str(refused.exception))
 
     def test_files_of_the_workspace(self):
         path = self.write("other.modx", "MODULE other\n  PROC helper()\n    total := 1;\n  ENDPROC\nENDMODULE\n")
@@ -523,6 +542,15 @@ class Configuration(Language):
     def test_from_rapid_to_the_configuration(self):
         found = self.client.request("textDocument/definition", at(self.document, self.PROGRAM, "doGrip"))
         self.assertEqual([(f["uri"], part(self.CONFIG, f["range"])) for f in found], [(self.config, "doGrip")])
+
+    def test_references_of_a_signal(self):
+        """ReferenceContext.includeDeclaration: the signal is declared in EIO.cfg, which a cross connection names again."""
+        ask = at(self.document, self.PROGRAM, "doGrip")
+        for declaration, expected in ((True, [1, 2]), (False, [2])):
+            found = self.client.request("textDocument/references", {**ask, "context": {"includeDeclaration": declaration}})
+            self.assertEqual([f["range"]["start"] for f in found if f["uri"] == self.document], [place(self.PROGRAM, "doGrip")])
+            self.assertEqual([f["range"]["start"] for f in found if f["uri"] == self.config],
+                             [place(self.CONFIG, "doGrip", nth) for nth in expected])
 
     def test_from_the_configuration_to_rapid(self):
         found = self.client.request("textDocument/references", {**at(self.config, self.CONFIG, "doGrip"),

@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from client import RAPIDC, LspCase, ServerError
+from client import RAPIDC, LspCase, ServerError, span
 
 
 class Lifecycle(LspCase):
@@ -41,6 +41,7 @@ class Lifecycle(LspCase):
         client = self.connect()
         self.assertEqual(self.code(client, "initialize"), -32602)
         self.assertEqual(self.code(client, "initialize", {"capabilities": 5}), -32602)
+        self.assertEqual(self.code(client, "initialize", {"capabilities": {}, "processId": "7"}), -32602)
         client.initialize()
         self.assertEqual(client.stop(), 0)
 
@@ -76,6 +77,10 @@ class Lifecycle(LspCase):
         for position in (None, {}, {"line": -1, "character": 0}, {"line": 1.5, "character": 0}, {"line": "1", "character": 0}):
             self.assertEqual(self.code(client, "textDocument/onTypeFormatting",
                                        {"textDocument": {"uri": "file:///x.modx"}, "position": position, "ch": "\n"}), -32602)
+        document = client.open("/tmp/a.modx", "MODULE a\nENDMODULE\n")
+        for context in (None, {}, {"diagnostics": 7}):  # CodeActionContext: diagnostics is an array, and required
+            self.assertEqual(self.code(client, "textDocument/codeAction",
+                                       {"textDocument": {"uri": document}, "range": span((0, 0), (0, 1)), "context": context}), -32602)
 
     def test_messages_that_are_no_requests(self):
         client = self.connect()

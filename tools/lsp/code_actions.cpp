@@ -104,6 +104,7 @@ Json codeActions(State& state, const Json& params) {
     const Target target = state.target(params);
     const SourceRange range = target.positions->offsets(rangeOf(field(params, "range")));
     const Json& context = objectField(params, "context");
+    arrayField(context, "diagnostics");
     const Json* only = optionalField(context, "only");
     const std::vector<const Diagnostic*> diagnostics = diagnosticsOf(state, target.path);
     Json actions = Json::array();

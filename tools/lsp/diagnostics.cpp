@@ -44,13 +44,26 @@ uint64_t hashOf(const Diagnostics& diagnostics) {
             hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
     };
     const auto number = [&](uint64_t value) { add(&value, sizeof value); };
+    // An edit may leave the offset of a place and change its line or column, in UTF-16 as well.
+    const auto place = [&](const rapid::SourceFile& file, uint32_t offset) {
+        offset = std::min(offset, static_cast<uint32_t>(file.text().size()));
+        const rapid::LineColumn at = file.lineColumn(offset);
+        number((uint64_t{at.line} << 32) | at.column);
+        const uint32_t start = file.lineStart(at.line);
+        const bool ascii = offset - start == at.column - 1;
+        if (!ascii) add(file.text().data() + start, offset - start);
+    };
+    const auto places = [&](const std::shared_ptr<const rapid::SourceFile>& file, rapid::SourceRange range) {
+        if (!file) return;
+        place(*file, range.begin);
+        place(*file, range.end);
+    };
     for (const diag::Diagnostic* d : diagnostics) {
         number(static_cast<uint64_t>(d->code) * 4 + static_cast<uint64_t>(d->severity));
-        number(d->file ? d->file->lineColumn(d->range.begin).line : 0); // lines may have moved
-        number((uint64_t{d->range.begin} << 32) | d->range.end);
+        places(d->file, d->range);
         add(d->message.data(), d->message.size());
         for (const diag::Diagnostic::Note& note : d->notes) {
-            number((uint64_t{note.range.begin} << 32) | note.range.end);
+            places(note.file, note.range);
             add(note.message.data(), note.message.size());
             if (note.file) add(note.file->path().data(), note.file->path().size());
         }

@@ -68,6 +68,8 @@ Json fileOperations() {
 
 void initialize(State& state, const Json& params) {
     objectField(params, "capabilities");
+    if (const Json* process = optionalField(params, "processId"); process && !process->is_number_integer())
+        throw RequestError{error::kInvalidParams, "'processId': expected an integer or null"};
     const std::vector<std::string> folders = foldersOf(params);
     state.setInitialization(params);
     state.encoding = encodingOf(params);

@@ -2,6 +2,7 @@
 
 #include "frontend/query/navigation.h"
 #include "config/json_text.h"
+#include "frontend/query/config_queries.h"
 #include "frontend/query/renaming.h"
 #include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
@@ -69,6 +70,8 @@ Json references(State& state, const Json& params) {
     if (meaning.found())
         for (const query::Use& use : query::usesOf(*target.snapshot, meaning, declaration, state.cancel))
             found.push_back(use.place);
+    for (query::Location& place : query::signalInConfiguration(*target.snapshot, meaning, declaration))
+        found.push_back(std::move(place));
     return toJson(state, found);
 }
 
@@ -107,8 +110,8 @@ Json rename(State& state, const Json& params) {
     std::string notes;
     for (const query::RenameNote& note : result.notes) {
         const Position place = state.positions(note.place.file)->at(note.place.range.begin);
-        notes += fmt::format("{}:{}:{}: {}\n", note.place.file->path(), place.line + 1, place.character + 1,
-                             note.text);
+        notes += fmt::format("{}{}:{}:{}: {}", notes.empty() ? "" : "\n", note.place.file->path(),
+                             place.line + 1, place.character + 1, note.text);
     }
     if (!notes.empty()) state.show(kInformation, notes);
     return state.workspaceEdit(files);

@@ -338,6 +338,8 @@ def test_requests_that_make_no_sense(a):
         a.refused(command)
         a.refused(command, threadId=1, frameId=1, variablesReference=1, expression="1", text="a", column=1, name="n",
                   value="1", targetId=1, source={"path": "x"}, line=1)
+    for command in ("setFunctionBreakpoints", "setDataBreakpoints", "setExceptionBreakpoints"):
+        a.refused(command)  # the protocol requires the list
     for arguments in ({"threadId": "one"}, {"threadId": 1.5}, {"threadId": None}, [1]):
         seq = a.send("continue", arguments)
         try:

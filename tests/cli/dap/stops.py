@@ -104,6 +104,19 @@ def test_every_error(a):
     a.event("terminated")
 
 
+def test_every_error_means_unhandled_ones_too(a):
+    """Contract 5: `all` stops at errors that a handler takes, and at those that none takes."""
+    a.start("errors.modx", filters=["all"])
+    a.stopped("exception", HANDLED, "handled")
+    equal(a.ask("exceptionInfo", threadId=1)["breakMode"], "always")
+    a.go()
+    a.stopped("exception", UNHANDLED)
+    equal(a.ask("exceptionInfo", threadId=1)["breakMode"], "unhandled")
+    a.ask("setExceptionBreakpoints", filters=[])
+    a.go()
+    a.run_out(1)
+
+
 def test_chosen_errors(a):
     a.initialize()
     launched = a.send("launch", {"program": path("errors.modx")})
@@ -249,6 +262,19 @@ def test_restart_frame(a):
     equal(a.run_out(), ["main", "main", "count 3"])
 
 
+def test_restart_of_the_outermost_frame(a):
+    """Manual 1.2.2, what happens at each event: after PP to routine variables have their initial values, persistents keep theirs."""
+    inside = line_of("frames.modx", "! inside")
+    a.start("frames.modx", [inside])
+    a.stopped("breakpoint", inside)
+    for variable in ("reset", "count"):
+        a.ask("evaluate", expression=f"{variable} := 7;", context="repl", frameId=a.frames()[0]["id"])
+    a.ask("restartFrame", frameId=a.frames()[2]["id"])
+    a.stopped("restart", line_of("frames.modx", "! main begins"), "main")
+    equal(a.value("reset"), "1")
+    equal(a.value("count"), "7")
+
+
 def test_breakpoint_locations(a):
     a.start("part.modx", stopOnEntry=True)
     a.stopped("entry")
@@ -308,6 +334,14 @@ def test_realtime_wait_can_be_paused(a):
     a.stopped("pause", line_of("waits.modx", "! long"))
     a.ask("disconnect")
     a.ended()
+
+
+def test_pause_while_a_log_point_writes(a):
+    """Contract 12 and 15: a log message in an endless loop keeps no request waiting."""
+    a.start("endless.modx", [{"line": 5, "logMessage": "n is {n}"}])
+    a.event("output")
+    a.ask("pause", threadId=1)
+    a.stopped("pause")
 
 
 def test_condition_without_end(a):

@@ -144,6 +144,8 @@ void BreakRule::writeLog(rt::Task& task, rt::Frame* at) {
 }
 
 bool BreakRule::accepts(rt::Task& task, rt::Frame* at) {
+    // Conditions and messages take much longer than the instructions that the budget counts: a request must not wait for its end.
+    if (context_.inbox.hasCommands()) task.forceSafepoint();
     if (!context_.evaluator || !holds(task, at) || !countsNow()) return false;
     if (log_.empty()) return true;
     writeLog(task, at);

@@ -160,6 +160,7 @@ Json BreakpointRequests::setBreakpoints(const Arguments& arguments) {
 }
 
 Json BreakpointRequests::setFunctionBreakpoints(const Arguments& arguments) {
+    arguments.require("breakpoints");
     std::vector<Wanted> wanted;
     for (const Arguments& one : arguments.objects("breakpoints")) {
         Wanted& made = wanted.emplace_back(read(one));
@@ -191,6 +192,7 @@ Json BreakpointRequests::dataBreakpointInfo(const Arguments& arguments) {
 }
 
 Json BreakpointRequests::setDataBreakpoints(const Arguments& arguments) {
+    arguments.require("breakpoints");
     std::vector<Wanted> wanted;
     std::vector<std::string> refused;
     for (const Arguments& one : arguments.objects("breakpoints")) {
@@ -344,6 +346,7 @@ bool BreakpointRequests::Filter::includes(int number, const Context& context) co
 }
 
 Json BreakpointRequests::setExceptionBreakpoints(const Arguments& arguments) {
+    if (!arguments.has("filterOptions")) arguments.require("filters");
     Filter unhandled, all;
     std::vector<std::pair<std::string, std::string>> wanted;
     for (const std::string& name : arguments.texts("filters"))

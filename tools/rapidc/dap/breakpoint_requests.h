@@ -24,7 +24,10 @@ class BreakpointRequests {
     void programMade();
     /// Number of the client for a breakpoint of the debugger; 0: it has none.
     int numberOf(int id) const;
-    bool stopsAtError(int number) const { return unhandled_.includes(number, context_); }
+    /// At an error that no handler takes: the filter "all" means those as well.
+    bool stopsAtError(int number) const {
+        return unhandled_.includes(number, context_) || all_.includes(number, context_);
+    }
     bool stopsAtHandledError(int number) const { return all_.includes(number, context_); }
 
   private:

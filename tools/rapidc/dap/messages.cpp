@@ -26,6 +26,10 @@ bool Arguments::has(const char* name) const {
     return find(name) != nullptr;
 }
 
+void Arguments::require(const char* name) const {
+    if (!has(name)) refuse(name, "given");
+}
+
 void Arguments::refuse(const char* name, const char* wanted) const {
     throw Refusal(find(name) == nullptr ? fmt::format("argument '{}{}' is missing", prefix_, name)
                                         : fmt::format("argument '{}{}' must be {}", prefix_, name, wanted));

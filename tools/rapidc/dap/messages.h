@@ -28,6 +28,8 @@ class Arguments {
     explicit Arguments(const Json& json, std::string prefix = "");
 
     bool has(const char* name) const;
+    /// Refuses the request when the argument is missing.
+    void require(const char* name) const;
     std::string text(const char* name) const;
     std::string text(const char* name, const std::string& otherwise) const;
     bool flag(const char* name, bool otherwise) const;

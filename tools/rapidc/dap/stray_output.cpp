@@ -23,6 +23,7 @@ StrayOutput::StrayOutput() {
 }
 
 StrayOutput::~StrayOutput() {
+    if (memory_ < 0) return;
     std::fflush(nullptr);
     ::dup2(output_, STDOUT_FILENO);
     ::dup2(errors_, STDERR_FILENO);
@@ -33,6 +34,7 @@ StrayOutput::~StrayOutput() {
 
 void StrayOutput::take(const std::function<void(std::string_view line)>& action) {
     constexpr long kMostKept = 1 << 20;
+    if (memory_ < 0) return;
     std::fflush(stdout);
     std::fflush(stderr);
     char bytes[4096];

@@ -12,7 +12,9 @@ class StrayOutput {
   public:
     /// From now on both go into a file in memory; protocolOutput() is what standard output was.
     StrayOutput();
-    /// Gives them back.
+    /// Catches nothing: for a session that has no process of its own. `protocolOutput` stays the caller's.
+    explicit StrayOutput(int protocolOutput) : output_(protocolOutput) {}
+    /// Gives back what was caught.
     ~StrayOutput();
     StrayOutput(const StrayOutput&) = delete;
     StrayOutput& operator=(const StrayOutput&) = delete;
