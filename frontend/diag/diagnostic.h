@@ -58,10 +58,10 @@ struct Diagnostic {
     Code code{};
     Severity severity = Severity::Error;
     CauseId cause = CauseId::None; ///< of a check: for the last pass over the diagnostics
-    CauseId line =
-        CauseId::None; ///< cause of the report that its line lacks the semicolon: perhaps one mistake
-    std::shared_ptr<const SourceFile>
-        file; ///< may be null: a message about the command line or a missing file
+    /// Cause of the report that its line lacks the semicolon: perhaps one mistake.
+    CauseId line = CauseId::None;
+    /// May be null: a message about the command line or a missing file.
+    std::shared_ptr<const SourceFile> file;
     SourceRange range;
     std::string message;           ///< lower-case start, one sentence, no full stop
     std::vector<std::string> args; ///< {0}, {1}, ... of the message

@@ -70,20 +70,37 @@ bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
                        });
 }
 
-// "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of the argument before it.
+// "Move p,x;" for "Move p.x;", "NumToStr(frame,trans.x, 1)": no data is named so, but a component of the argument before it.
 bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     for (size_t i = 0; i + 1 < args.size(); ++i) {
         const Expr *whole = args[i]->value, *part = args[i + 1]->value;
-        if (!whole || !part || part->kind != NodeKind::Name || args[i + 1]->argKind != ArgKind::Required)
-            continue;
+        if (!whole || !part || args[i + 1]->argKind != ArgKind::Required || !isName(part->first)) continue;
         const DataType& type = info(*whole).type;
-        if (range(*part).begin != range(*whole).end + 1 || info(*part).type.type->kind != TypeKind::Error ||
+        const TokenIndex component = part->first;
+        if (range(component).begin != range(*whole).end + 1 || asData(scopes_.lookup(idOf(component))) ||
             type.rank > 0 || type.type->kind != TypeKind::Record ||
-            places_.findComponent(*type.type, text(*part)) < 0)
+            places_.findComponent(*type.type, context_.tree->text(component)) < 0)
             continue;
         reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
-        const SourceRange comma{range(*whole).end, range(*part).begin};
+        const SourceRange comma{range(*whole).end, range(component).begin};
         report(say::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
+        return true;
+    }
+    return false;
+}
+
+// "Open path, file /Write;": no data is named as the option after the slash.
+bool ArgumentOrder::explainSlash(const RoutineSymbol& routine, std::span<Argument* const> args) {
+    for (const Argument* arg : args) {
+        if (!arg->value || arg->value->kind != NodeKind::Binary) continue;
+        const auto& quotient = as<BinaryExpr>(*arg->value);
+        const TokenIndex option = quotient.opToken + 1;
+        if (quotient.op != BinaryOp::Div || !isName(option) || asData(scopes_.lookup(idOf(option))) ||
+            calls_.namedOptional(routine, idOf(option)) >= routine.params.size())
+            continue;
+        reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
+        const SourceRange slash = range(quotient.opToken);
+        report(say::UnexpectedToken, slash, {"'/'", "'\\' before an optional argument"}).fix(slash, "\\");
         return true;
     }
     return false;

@@ -15,6 +15,8 @@ class ArgumentOrder : CheckerPart {
                           std::span<syntax::Argument* const> args);
     /// The same for a decimal comma.
     bool explainComma(std::span<syntax::Argument* const> args);
+    /// The same for '/' before an optional argument.
+    bool explainSlash(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
     /// "SetDO do1 := 1;": a comma or a backslash is missing. False: nothing was reported.
     bool reportMisspeltSeparator(const RoutineSymbol& routine, const syntax::Argument& arg, size_t slot,
                                  bool isLast);

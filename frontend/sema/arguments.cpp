@@ -174,12 +174,12 @@ void Arguments::takeBack(const std::vector<const Expr*>& moved) {
     });
 }
 
-// "MoveL p10.v100, fine, tool0;": no component is named so, but data is.
+// "MoveL p10.v100, fine, tool0;", "Add count.step;": no component is named so, but data is.
 bool Arguments::isDotForComma(const Expr& e) {
     if (e.kind != NodeKind::Component) return false;
     const auto& part = as<ComponentExpr>(e);
     return isName(part.name) && info(e).type.type->kind == TypeKind::Error &&
-           info(*part.base).type.type->kind == TypeKind::Record && asData(scopes_.lookup(idOf(part.name)));
+           info(*part.base).type.type->kind != TypeKind::Error && asData(scopes_.lookup(idOf(part.name)));
 }
 
 // Arguments of the wrong type, and those that are missing. One that is missing in the middle is one mistake.

@@ -9,8 +9,8 @@ namespace rt {
 
 namespace {
 
-constexpr Time kPeriod = 4 * kMillisecond;
-constexpr double kSeconds = 0.004;
+constexpr Time kPeriod = motion::kModifierPeriod;
+constexpr double kSeconds = static_cast<double>(kPeriod) / 1e9;
 constexpr double kRampTime = 0.25; // s from rest to a share of 1
 constexpr double kRamp = 1 / kRampTime;
 

@@ -3,6 +3,7 @@
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/text_diff.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
 #include "config/temporary.h"
@@ -39,8 +40,6 @@ struct FmtSettings {
     std::string stdinName = "stdin.modx";
     std::string range;
 };
-
-constexpr int kUsage = static_cast<int>(rt::ExitStatus::BadUsage);
 
 /// "FIRST:LAST"; false when it has another form.
 bool readRange(const std::string& text, format::FormatRequest& request) {
@@ -83,7 +82,7 @@ class Fmt {
         const rapid::workspace::ModuleFiles files = rapid::workspace::findModuleFiles(settings_.inputs);
         for (const std::string& problem : files.problems)
             fmt::print(stderr, "rapidc fmt: {}\n", problem);
-        if (!files.problems.empty()) return kUsage;
+        if (!files.problems.empty()) return kBadUsage;
         if (!settings_.range.empty() && files.paths.size() != 1)
             return usage("--range needs exactly one module");
         if (!settings_.check && !settings_.diff) rapid::config::removeLeftoversBeside(files.paths);
@@ -95,7 +94,7 @@ class Fmt {
   private:
     static int usage(const std::string& problem) {
         fmt::print(stderr, "rapidc fmt: {}\n", problem);
-        return kUsage;
+        return kBadUsage;
     }
 
     int runStdin() {

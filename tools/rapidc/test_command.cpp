@@ -7,6 +7,7 @@
 #include "tools/program/run_setup.h"
 #include "tools/program/unit_compiler.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 #include "tools/testing/coverage.h"
 #include "tools/testing/discovery.h"
 #include "tools/testing/reports.h"
@@ -53,11 +54,6 @@ struct TestSettings {
 
     bool countsStatements() const { return coverage || !lcov.empty() || !page.empty(); }
 };
-
-int usageError(const std::string& problem) {
-    fmt::print(stderr, "rapidc test: {}\n", problem);
-    return static_cast<int>(rt::ExitStatus::BadUsage);
-}
 
 // ---- The program -----------------------------------------------------------------------------------------------------
 
@@ -284,7 +280,7 @@ int test(TestSettings& settings) {
     Inputs& inputs = settings.inputs;
     inputs.cameras = settings.options.cameras;
     const auto compilation = checkInputs(inputs);
-    if (!compilation->usageErrors.empty()) return usageError(compilation->usageErrors.front());
+    if (!compilation->usageErrors.empty()) return usageError("test", compilation->usageErrors.front());
     if (!compilation->program || compilation->program->tasks.empty()) {
         printDiagnostics(*compilation);
         return static_cast<int>(rt::ExitStatus::BadProgram);
@@ -298,12 +294,13 @@ int test(TestSettings& settings) {
                                                       {"--json", settings.json},
                                                       {"--lcov", settings.lcov},
                                                       {"--coverage-page", settings.page}});
-    if (!error.empty() || !readStimulus(settings.options, error)) return usageError(error);
+    if (!error.empty() || !readStimulus(settings.options, error)) return usageError("test", error);
     if (chosen.empty() && !compilation->sink.hasErrors()) {
         if (!all.empty())
             return usageError(
-                fmt::format("none of the {} tests matches {}", all.size(), listed(settings.filters)));
+                "test", fmt::format("none of the {} tests matches {}", all.size(), listed(settings.filters)));
         return usageError(
+            "test",
             fmt::format("there are no tests in {}: a test is a procedure without parameters whose name "
                         "begins with Test (docs/testing.md)",
                         listed(inputs.paths)));

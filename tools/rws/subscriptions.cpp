@@ -142,8 +142,7 @@ Reply Subscriptions::create(const Request& request) {
         return Reply::refuse(ReturnCode::Rejected,
                              fmt::format("A session has at most {} groups.", kMostGroups), 400);
     std::vector<Wish> wishes;
-    if (const auto failure = readWishes(request, wishes))
-        return Reply::refuse(failure->code, failure->message, failure->status);
+    if (const auto failure = readWishes(request, wishes)) return Reply::refuse(*failure);
     auto group = std::make_unique<Group>();
     group->id = ++lastGroup_;
     group->session = request.session->number;
@@ -156,7 +155,7 @@ Reply Subscriptions::create(const Request& request) {
     if (failure) {
         for (const auto& [text, resource] : group->resources)
             disconnect(resource.topic, group->outlet);
-        return Reply::refuse(failure->code, failure->message, failure->status);
+        return Reply::refuse(*failure);
     }
     document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
     document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
@@ -177,7 +176,7 @@ Reply Subscriptions::change(const Request& request) {
     auto failure = readWishes(request, wishes);
     Document document;
     if (!failure) failure = subscribe(request, *group, wishes, document.entries);
-    if (failure) return Reply::refuse(failure->code, failure->message, failure->status);
+    if (failure) return Reply::refuse(*failure);
     document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
     document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
     return Reply::of(std::move(document), 200);

@@ -7,13 +7,6 @@
 
 namespace rapid::syntax {
 
-namespace {
-
-constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
-                                 TokenKind::KwEndtest};
-
-} // namespace
-
 void EndWords::closeBlock(K end, TokenIndex opening, bool whole) {
     if (accept(end)) {
         endPanic();

@@ -147,10 +147,7 @@ bool Synchronizer::assignmentBelow() {
 void Synchronizer::abandonRoutine() {
     block().abandoned = true;
     endPanic();
-    constexpr TokenSet kStop = {TokenKind::KwEndproc, TokenKind::KwEndfunc,   TokenKind::KwEndtrap,
-                                TokenKind::KwProc,    TokenKind::KwFunc,      TokenKind::KwTrap,
-                                TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
-    while (!kStop.has(kind()))
+    while (!kRoutineBorders.has(kind()))
         take();
 }
 

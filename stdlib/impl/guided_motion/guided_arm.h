@@ -42,7 +42,7 @@ struct GuidanceOrder {
 
 class GuidedArm {
   public:
-    static constexpr Time kPeriod = 4 * kMillisecond;
+    static constexpr Time kPeriod = motion::kModifierPeriod;
 
     GuidedArm(MotionDriver& motion, const GuidanceSettings& settings, const GuidanceOrder& order);
 
