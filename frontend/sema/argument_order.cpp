@@ -1,4 +1,4 @@
-// Arguments that would fit in another order, or with one more or one less: one report.
+// Arguments that would fit in a different order, or with one more or one less: one report.
 
 #include "frontend/sema/argument_order.h"
 #include "frontend/sema/arguments.h"
@@ -23,7 +23,7 @@ constexpr size_t kMostArguments = 16; // of calls that are looked at
 } // namespace
 
 /// Whether a parameter of this mode takes the data; the type does not count.
-bool mayStandFor(const DataSymbol& root, ParamMode mode) {
+bool acceptsData(const DataSymbol& root, ParamMode mode) {
     const bool parameter = root.storage == Storage::Parameter;
     if (mode == ParamMode::In || mode == ParamMode::Ref) return true;
     if (root.storage == Storage::Signal) return mode != ParamMode::Pers;
@@ -51,7 +51,7 @@ bool ArgumentOrder::couldBe(const Expr& e, const DataSymbol& param) {
         base = base->kind == NodeKind::Index ? as<IndexExpr>(*base).base : as<ComponentExpr>(*base).base;
     const DataSymbol* root = base->kind == NodeKind::Name ? asData(info(*base).symbol) : nullptr;
     const bool byReference = param.mode != ParamMode::In || want.kind == TypeKind::SemiValue;
-    if (byReference && (!root || !mayStandFor(*root, param.mode))) return false;
+    if (byReference && (!root || !acceptsData(*root, param.mode))) return false;
     if (want.kind == TypeKind::AnyType) return !missingClass(param.accepts, found);
     const bool numeric = found.rank == 0 && param.type.rank == 0 && want.isNumeric();
     if (!byReference && numeric && found.type->kind == TypeKind::SemiValue) return true;
@@ -134,7 +134,7 @@ void ArgumentOrder::reportSwapped(const RoutineSymbol& routine, const DataSymbol
                                   bool certain) {
     report(say::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
         .fixes.push_back(
-            {"let them change places",
+            {"swap them",
              {{range(first), remedies_.written(second)}, {range(second), remedies_.written(first)}},
              certain});
 }

@@ -40,6 +40,6 @@ class ArgumentOrder : CheckerPart {
 };
 
 /// Whether a parameter of this mode can take the data.
-bool mayStandFor(const DataSymbol& root, syntax::ParamMode mode);
+bool acceptsData(const DataSymbol& root, syntax::ParamMode mode);
 
 } // namespace rapid::sema

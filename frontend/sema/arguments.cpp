@@ -119,7 +119,7 @@ bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
 }
 
 // Whether an argument could stand for one of the parameters, which share a place.
-bool Arguments::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
+bool Arguments::couldBelongTo(const Expr& value, std::span<const BoundArg> params) {
     const DataSymbol* entire =
         value.kind == NodeKind::Name ? asData(scopes_.lookup(idOf(as<NameExpr>(value).name))) : nullptr;
     const DataType& found = info(value).type;
@@ -153,10 +153,10 @@ std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<
     }
     if (places.size() != given.size() + 1) return {};
     size_t out = 0;
-    while (out < given.size() && couldStandFor(*given[out], places[out]))
+    while (out < given.size() && couldBelongTo(*given[out], places[out]))
         ++out;
     for (size_t i = out; i < given.size(); ++i)
-        if (!couldStandFor(*given[i], places[i + 1])) return {};
+        if (!couldBelongTo(*given[i], places[i + 1])) return {};
     moved.assign(given.begin() + static_cast<std::ptrdiff_t>(out), given.end());
     return places[out];
 }
@@ -310,7 +310,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
     if (root.storage == Storage::SystemVariable && isHandle(*root.type.type))
         return; // passed on, never changed
     const bool persistent = parameter ? root.mode == ParamMode::Pers : root.dataKind == DataKind::Pers;
-    if (!mayStandFor(root, mode)) {
+    if (!acceptsData(root, mode)) {
         std::string found = parameter && root.mode == ParamMode::In    ? "a parameter of mode IN"
                             : parameter && root.mode == ParamMode::Var ? "a parameter of mode VAR"
                             : parameter && persistent                  ? "a parameter of mode PERS"

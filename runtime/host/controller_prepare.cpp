@@ -340,7 +340,7 @@ ExitStatus Controller::openState() {
     return ExitStatus::BadUsage;
 }
 
-/// A name in the stimulus that the configuration lacks; empty when all is well.
+/// A name in the stimulus that the configuration lacks; empty when there is none.
 static std::string problemOf(Controller& controller, const StimulusItem& item) {
     const IoSystem& io = controller.io();
     switch (item.kind) {

@@ -16,7 +16,7 @@ namespace rt {
 
 namespace {
 
-/// A length or another number of ConveyorSettings, and how options and PROC.cfg call it. There lengths are in m.
+/// A length or a different number of ConveyorSettings, and how options and PROC.cfg call it. There lengths are in m.
 struct Parameter {
     const char* key;
     double ConveyorSettings::* value;

@@ -65,14 +65,14 @@ std::vector<std::string> routineNames(const std::vector<const Frame*>& frames, s
 /// Which callers have a handler that was not asked (manual 1.12), and what would ask it; "" when there is none.
 std::string unaskedText(const Frame* from, int number) {
     const Frame* const stopped = callSeenByUser(from);
-    const UnaskedHandlers unasked = unaskedHandlers(stopped, number);
+    const BypassedHandlers unasked = bypassedHandlers(stopped, number);
     if (unasked.callers.empty() || unasked.between.empty()) return {};
     const char* const lack = stopped->routine->hasErrorHandler != 0
                                  ? "The error handler of {0} does not list this error"
                                  : "{0} has no error handler";
-    std::vector<std::string> callers = routineNames(unasked.callers, UnaskedHandlers::kMost);
-    if (unasked.callers.size() > UnaskedHandlers::kMost) callers.emplace_back("others");
-    const std::vector<std::string> between = routineNames(unasked.between, UnaskedHandlers::kMostBetween);
+    std::vector<std::string> callers = routineNames(unasked.callers, BypassedHandlers::kMost);
+    if (unasked.callers.size() > BypassedHandlers::kMost) callers.emplace_back("others");
+    const std::vector<std::string> between = routineNames(unasked.between, BypassedHandlers::kMostBetween);
     return fmt::format(fmt::runtime(std::string(lack) +
                                     ", so the error does not go to its callers: the error "
                                     "handler of {1} was not asked. \"ERROR RAISE;\" in "
@@ -411,7 +411,7 @@ Status Task::retryAt(Frame* handler) {
         count = 0; // started again
     }
     ++count;
-    // The frame record carries the id: a later invocation at the same address starts counting anew.
+    // The frame record carries the id: a later invocation at the same address starts counting again.
     entry->id = handler->reserved = ++lastRetryId_;
     host_.retried(*this);
     return kOk;

@@ -166,7 +166,7 @@ Json DialogArea::answer(const Json& params) {
         if (text.size() > rt::kStringCapacity)
             badRequest(fmt::format("A text has at most {} characters", rt::kStringCapacity));
         if (text.find_first_of("\r\n") != std::string::npos) badRequest("A text has one line");
-        answer = "\"" + text + "\""; // as it is, also when it is empty
+        answer = "\"" + text + "\""; // as it is, even when it is empty
         break;
     }
     }

@@ -180,7 +180,7 @@ void addBuildCommand(rt::CommandLine& line) {
     command.addFlag("--strip", settings->strip, "Leave out debug information");
     command.addFlag("--no-cache", settings->noCache,
                     "Compile every module of a large program again, and keep nothing in the cache");
-    command.addFlag("--in-parts", settings->inParts, "Compile each module by itself, also in a small program")
+    command.addFlag("--in-parts", settings->inParts, "Compile each module by itself, even in a small program")
         .hide(); // for tests
     command
         .addFlag("--without-overflow-checks", settings->withoutOverflowChecks,

@@ -100,7 +100,7 @@ void addCheckCommand(rt::CommandLine& line) {
     settings->inputs.onlyDiagnostics = true;
     addAssumeSignalsOption(command, settings->inputs);
     addWarningOption(command, settings->inputs);
-    command.add("--format", settings->format, "human, json or sarif").oneOf({"human", "json", "sarif"});
+    command.add("--format", settings->format, "Format of the diagnostics").oneOf({"human", "json", "sarif"});
     command.addFlag("--missing", settings->missing,
                     "Print only a table of what is missing: built-ins, names, modules, "
                     "signals, options");

@@ -106,7 +106,7 @@ void addExplainCommand(rt::CommandLine& line) {
         return folder->empty() ? explain(*code) : writePages(*folder);
     };
     const rt::Command command =
-        line.addCommand("explain", "Say what a diagnostic, an event or an error means", body);
+        line.addCommand("explain", "Explain a diagnostic, an event or an error", body);
     const rt::Option one = command.add(
         "code", *code, "RAP2104, the name of a warning, the number of an event (40229), or ERR_NAME");
     const rt::Option all = command.add("--pages", *folder, "Write a page for every code into this folder");

@@ -41,7 +41,7 @@ struct FmtSettings {
     std::string range;
 };
 
-/// "FIRST:LAST"; false when it has another form.
+/// "FIRST:LAST"; false when it has a different form.
 bool readRange(const std::string& text, format::FormatRequest& request) {
     unsigned first = 0, last = 0;
     int length = 0;
@@ -185,7 +185,7 @@ class Fmt {
 
 void addFmtCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<FmtSettings>();
-    const rt::Command command = line.addCommand("fmt", "Lay out modules; what they mean never changes",
+    const rt::Command command = line.addCommand("fmt", "Format modules without changing their meaning",
                                                 [settings] { return Fmt(*settings).run(); });
     command.add("input", settings->inputs, "Modules; folders with all modules below them");
     command.addFlag("--check", settings->check,

@@ -148,7 +148,7 @@ void addRunCommand(rt::CommandLine& line) {
         .hide(); // for tests
     command
         .addFlag("--in-parts", settings->inParts,
-                 "Compile each routine when it is called first, also in a small program")
+                 "Compile each routine when it is called first, even in a small program")
         .hide(); // for tests
 }
 

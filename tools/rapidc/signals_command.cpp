@@ -52,7 +52,7 @@ int writeSignalFile(SignalsSettings& settings) {
 void addSignalsCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<SignalsSettings>();
     const rt::Command command = line.addCommand(
-        "signals", "Write the signals that a program uses and no configuration defines as an EIO.cfg",
+        "signals", "Write an EIO.cfg with the signals that a program uses and no configuration defines",
         [settings] { return writeSignalFile(*settings); });
     command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
     command.add("-o,--output", settings->output, "The file to write; without it standard output");

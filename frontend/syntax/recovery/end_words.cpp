@@ -1,4 +1,4 @@
-// END words that are missing, misplaced or written in another way.
+// END words that are missing, misplaced or written in a different way.
 
 #include "frontend/syntax/grammar/parts.h"
 

@@ -1,4 +1,4 @@
-// The way back to firm ground after a mistake.
+// Finds a place to continue parsing from after a mistake.
 
 #include "frontend/syntax/grammar/parts.h"
 

@@ -196,7 +196,7 @@ double durationWithoutJerk(const Problem& problem) {
     return duration;
 }
 
-/// The optimum with limits of jerk by another way: squares of the speed at places that are dense near rest, differences
+/// The optimum with limits of jerk by a different way: squares of the speed at places that are dense near rest, differences
 /// between them, and a barrier with Newton steps on full matrices.
 class Reference {
   public:

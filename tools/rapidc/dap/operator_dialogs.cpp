@@ -54,7 +54,7 @@ std::string typed(const rt::Dialog& dialog, const std::string& answer) {
     }
     if (answer.size() > rt::kStringCapacity)
         throw Refusal(fmt::format("a text has at most {} characters", rt::kStringCapacity));
-    return "\"" + answer + "\""; // as it is, also when it is empty
+    return "\"" + answer + "\""; // as it is, even when it is empty
 }
 
 } // namespace
