@@ -118,7 +118,7 @@ bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
     return true;
 }
 
-// Whether an argument could stand for one of the parameters, which share a place.
+// Whether an argument could belong to one of the parameters, which share a place.
 bool Arguments::couldBelongTo(const Expr& value, std::span<const BoundArg> params) {
     const DataSymbol* entire =
         value.kind == NodeKind::Name ? asData(scopes_.lookup(idOf(as<NameExpr>(value).name))) : nullptr;

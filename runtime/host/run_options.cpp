@@ -146,6 +146,33 @@ void addRobots(const Command& command, RunOptions& options) {
     addTick(command, options);
 }
 
+void addOutputs(const Command& command, RunOutputs& outputs) {
+    command.add("--trace", outputs.trace, "Write the robot's motion, one sample every 4 ms (--tick)")
+        .typeName("FILE.csv");
+    command.addFlag(
+        "--motors", outputs.motors,
+        "With --trace: add the positions of the motors (m1 to m6), which recordings of real robots show");
+    command.add("--signals", outputs.signals, "Write every change of a signal").typeName("FILE.csv");
+    command.add("--events", outputs.events, "Write the event log, one JSON object per line")
+        .typeName("FILE.jsonl");
+    command
+        .add("--errors", outputs.errors, "Write every error that is raised and where, including handled ones")
+        .typeName("FILE.csv");
+    command
+        .add("--report", outputs.report,
+             "Write a page with the path in 3D, speeds, signals, events and a table of movements")
+        .typeName("FILE.html");
+    command
+        .add("--compare", outputs.compare,
+             "Compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
+             "distance, where they come from")
+        .typeName("FILE.csv");
+    command.add("--picture", outputs.picture, "Draw the path of the TCP with zones, points and signals")
+        .typeName("FILE.svg");
+    command.addFlag("--summary", outputs.summary,
+                    "Print cycle time, what slowed each movement, and the paths of the files");
+}
+
 } // namespace
 
 void addRunOptions(const Command& command, RunOptions& options, bool withTasks) {
@@ -172,32 +199,7 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
              "Events from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")
         .typeName("FILE.csv");
-    command.add("--trace", options.outputs.trace, "Write the robot's motion, one sample every 4 ms (--tick)")
-        .typeName("FILE.csv");
-    command.addFlag(
-        "--motors", options.outputs.motors,
-        "With --trace: add the positions of the motors (m1 to m6), which recordings of real robots show");
-    command.add("--signals", options.outputs.signals, "Write every change of a signal").typeName("FILE.csv");
-    command.add("--events", options.outputs.events, "Write the event log, one JSON object per line")
-        .typeName("FILE.jsonl");
-    command
-        .add("--errors", options.outputs.errors,
-             "Write every error that is raised and where, including handled ones")
-        .typeName("FILE.csv");
-    command
-        .add("--report", options.outputs.report,
-             "Write a page with the path in 3D, speeds, signals, events and a table of movements")
-        .typeName("FILE.html");
-    command
-        .add("--compare", options.outputs.compare,
-             "Compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
-             "distance, where they come from")
-        .typeName("FILE.csv");
-    command
-        .add("--picture", options.outputs.picture, "Draw the path of the TCP with zones, points and signals")
-        .typeName("FILE.svg");
-    command.addFlag("--summary", options.outputs.summary,
-                    "Print cycle time, what slowed each movement, and the paths of the files");
+    addOutputs(command, options.outputs);
     command
         .add("--state", options.state,
              "Folder that keeps the controller's state from run to run: data, events, the robot's "

@@ -176,10 +176,6 @@ Expr* ExpressionParser::parsePrimary() {
     }
     default: break;
     }
-    if (kind() == K::LeftBrace && isDoubled(pos())) {
-        dropDoubled(take());
-        return parseExpression();
-    }
     if (kind() == K::LeftBrace && !block().inHead && startsExpression(peek()) &&
         !startsLine(pos())) // x := {1, 2}
         return parseForeignAggregate(pos(), ahead().closingOf(pos()));
@@ -507,6 +503,10 @@ bool ExpressionParser::hasOption(TokenIndex opening) const {
 
 /// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or after its first member.
 Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
+    if (pos() == opening && isDoubled(opening)) {
+        dropDoubled(take());
+        return parseExpression();
+    }
     auto* node = makeExpr<ErrorExpr>(NodeKind::ErrorExpr);
     node->first = opening;
     diag::Diagnostic* diagnostic =
