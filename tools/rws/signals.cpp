@@ -219,7 +219,7 @@ Reply Signals::set(const Request& request) {
     if (value.empty()) return Reply::done();
     const auto failure = setValue(signal, value);
     if (failure && simulates && !wasSimulated) (void)simulate(signal, false); // refused: nothing has changed
-    return failure ? fail(*failure) : Reply::done();
+    return failure ? Reply::refuse(*failure) : Reply::done();
 }
 
 Reply Signals::setState(const Request& request) {
@@ -229,7 +229,7 @@ Reply Signals::setState(const Request& request) {
     if (!sameName(state, kSimulated) && !sameName(state, kNotSimulated))
         return Reply::refuse(ReturnCode::BadParameter, "lstate is 'simulated' or 'not simulated'");
     const auto failure = simulate(signal, sameName(state, kSimulated));
-    return failure ? fail(*failure) : Reply::done();
+    return failure ? Reply::refuse(*failure) : Reply::done();
 }
 
 Reply Signals::endAllSimulations(const Request&) {
