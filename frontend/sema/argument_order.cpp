@@ -70,6 +70,11 @@ bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
                        });
 }
 
+bool ArgumentOrder::isDeclaredData(TokenIndex name) const {
+    const DataSymbol* data = asData(scopes_.lookup(idOf(name)));
+    return data && data->index != kNoIndex; // not the stand-in of an undeclared name
+}
+
 // "Move p,x;" for "Move p.x;", "NumToStr(frame,trans.x, 1)": no data is named so, but a component of the argument before it.
 bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     for (size_t i = 0; i + 1 < args.size(); ++i) {
@@ -77,8 +82,8 @@ bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
         if (!whole || !part || args[i + 1]->argKind != ArgKind::Required || !isName(part->first)) continue;
         const DataType& type = info(*whole).type;
         const TokenIndex component = part->first;
-        if (range(component).begin != range(*whole).end + 1 || asData(scopes_.lookup(idOf(component))) ||
-            type.rank > 0 || type.type->kind != TypeKind::Record ||
+        if (range(component).begin != range(*whole).end + 1 || isDeclaredData(component) || type.rank > 0 ||
+            type.type->kind != TypeKind::Record ||
             places_.findComponent(*type.type, context_.tree->text(component)) < 0)
             continue;
         reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
@@ -95,7 +100,7 @@ bool ArgumentOrder::explainSlash(const RoutineSymbol& routine, std::span<Argumen
         if (!arg->value || arg->value->kind != NodeKind::Binary) continue;
         const auto& quotient = as<BinaryExpr>(*arg->value);
         const TokenIndex option = quotient.opToken + 1;
-        if (quotient.op != BinaryOp::Div || !isName(option) || asData(scopes_.lookup(idOf(option))) ||
+        if (quotient.op != BinaryOp::Div || !isName(option) || isDeclaredData(option) ||
             calls_.namedOptional(routine, idOf(option)) >= routine.params.size())
             continue;
         reports_.collected()->retract([](const diag::Diagnostic&) { return true; });

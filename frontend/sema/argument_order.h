@@ -28,6 +28,7 @@ class ArgumentOrder : CheckerPart {
                       const std::vector<const DataSymbol*>& params,
                       const std::vector<const syntax::Expr*>& given);
     bool errorsLieIn(const std::vector<const syntax::Expr*>& given) const;
+    bool isDeclaredData(syntax::TokenIndex name) const;
     bool couldBe(const syntax::Expr& e, const DataSymbol& param);
     void reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
                        const syntax::Expr& first, const syntax::Expr& second, bool certain);
