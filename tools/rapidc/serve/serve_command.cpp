@@ -15,16 +15,8 @@ namespace rapidc {
 
 namespace {
 
-<<<<<<< HEAD
-=======
 constexpr int kSignalStatus = 128; ///< what a shell adds to the number of the signal
 
-int usageError(const std::string& problem) {
-    fmt::print(stderr, "rapidc serve: {}\n", problem);
-    return static_cast<int>(rt::ExitStatus::BadUsage);
-}
-
->>>>>>> b50e7e54b228ea01155f66676f82f460ec234e83
 int serveInputs(serve::ServeSettings& settings) {
     std::vector<std::unique_ptr<rapid::config::TemporaryFolder>> folders;
     if (const std::string problem = complete(settings, folders); !problem.empty())

@@ -90,13 +90,9 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
              "A file whose first line is the password, so that no list of processes shows it")
         .typeName("FILE");
     command.addFlag("--no-program-start", settings.noProgramStart,
-<<<<<<< HEAD
                     "Begin with the motors off and the program stopped at main");
-=======
-                    "begin with the motors off and the program stopped at main");
     command.addFlag("--motors-on", settings.motorsOn,
-                    "with --no-program-start: begin with the motors on, ready for the first start");
->>>>>>> b50e7e54b228ea01155f66676f82f460ec234e83
+                    "With --no-program-start: begin with the motors on, ready for the first start");
     addRobotWare(command, controller.robotWare);
     command.add("--backup-dir", settings.backupFolder, "The folder of $BACKUP; default: a temporary one")
         .typeName("DIR");
