@@ -25,7 +25,7 @@ llvm::StructType* structNamed(llvm::LLVMContext& context, const std::string& nam
 
 /// The struct type of T; one for each context.
 template <class T> llvm::StructType* structType(llvm::LLVMContext& context) {
-    static_assert(LaidOutNaturally<T>, "LLVM would lay this struct out in another way than C++");
+    static_assert(LaidOutNaturally<T>, "LLVM would lay this struct out in a different way than C++");
     static const std::string name = detail::structName(llvm::getTypeName<T>());
     return detail::structNamed(context, name, kFields<T>.data(), kFields<T>.size());
 }
@@ -72,7 +72,7 @@ template <class Signature> llvm::FunctionType* functionType(llvm::LLVMContext& c
     return detail::SignatureParts<Signature>::type(context);
 }
 
-/// A function with a signature that C++ knows: a call with another number of arguments does not compile.
+/// A function with a signature that C++ knows: a call with a different number of arguments does not compile.
 template <class Signature> class Callee {
   public:
     Callee() = default;

@@ -5,7 +5,7 @@
 namespace codegen {
 namespace {
 
-/// A plain word could be the name of a C function (memcpy) which LLVM calls on its own account.
+/// A plain word could be the name of a C function (memcpy) which LLVM calls by itself.
 std::string internalName(const std::string& name) {
     return name.find_first_of("/$") == std::string::npos ? name + "$" : name;
 }

@@ -25,7 +25,7 @@ class OrcSession {
     OrcSession& operator=(const OrcSession&) = delete;
     ~OrcSession();
 
-    /// Functions that LLVM's code generator calls on its own account (memcpy, fmodf and the like) are looked up in the process.
+    /// Functions that LLVM's code generator calls by itself (memcpy, fmodf and the like) are looked up in the process.
     bool open(const llvm::DataLayout& layout, bool debugInfo, std::string& error);
     /// Makes symbols of the process known to all objects.
     bool define(const std::vector<NativeSymbol>& symbols, std::string& error);

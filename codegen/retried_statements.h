@@ -15,7 +15,7 @@ std::vector<bool> failingStatements(const ir::Module& module, const ir::Routine&
 /// By block: beginnings of statements that RETRY may execute again. Empty: the routine has no RETRY.
 std::vector<bool> retriedBlocks(const ir::Routine& routine, const ir::Cfg& cfg,
                                 const std::vector<bool>& failing);
-/// The block ends with an entry into such a statement other than by RETRY: it has not failed yet, and its RETRYs are counted anew.
+/// The block ends with an entry into such a statement other than by RETRY: it has not failed yet, and its RETRYs are counted again.
 bool entersRetried(const ir::Routine& routine, ir::BlockId block, const std::vector<bool>& retried);
 
 } // namespace codegen

@@ -49,7 +49,7 @@ rt::WordOp intOp(ir::IntOp op) {
     return rt::WordOp::Unreachable;
 }
 
-/// Also: the operands change places.
+/// `swapped`: with its operands in the other order.
 struct Comparison {
     rt::WordOp op;
     bool swapped = false;

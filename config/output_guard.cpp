@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that a path means, also where links lead to a file that is not there yet.
+/// The file that a path means, even where links lead to a file that is not there yet.
 fs::path followed(fs::path path) {
     constexpr int kMaxLinks = 40; // as the kernel allows
     std::error_code error;

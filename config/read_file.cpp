@@ -132,7 +132,7 @@ std::string readFile(const std::string& path, std::string& bytes) {
 std::string readStream(const std::string& path, std::string& bytes, double waitSeconds) {
     bytes.clear();
     errno = 0;
-    // Opening /dev/stdin anew fails for sockets and would lose the position in a file.
+    // Opening /dev/stdin again fails for sockets and would lose the position in a file.
     if (path == "-" || path == "/dev/stdin") return readToEnd(STDIN_FILENO, bytes);
     struct stat status{};
     if (::stat(path.c_str(), &status) != 0) return systemProblem();

@@ -197,6 +197,11 @@ def check_words(path, lines, errors):
             errors.append(f"{path}:{number}: '{word.group()}' is a word of RAPID; {layer} knows no source language")
 
 
+def has_reason(lines, number):
+    """Whether a comment "// Size: ..." directly before the function says why it is long."""
+    return number > 1 and any(line.startswith("// Size: ") for line in lines[max(0, number - 3):number - 1])
+
+
 def function_lengths(lines):
     """Yields (line, length) of function bodies: an unindented line opening a brace up to the unindented brace.
 
@@ -207,7 +212,7 @@ def function_lengths(lines):
         text = line.rstrip("\n")
         if start is None:
             opens = text.endswith("{") and text[:1] not in ("", " ", "}", "#", "/")
-            if opens and "(" in text + "".join(lines[max(0, number - 4):number]) and not re.match(
+            if opens and not has_reason(lines, number) and "(" in text + "".join(lines[max(0, number - 4):number]) and not re.match(
                     r"(namespace|struct|class|enum|union|extern|constexpr|inline constexpr|const|static const)\b",
                     text):
                 start = number

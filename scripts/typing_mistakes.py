@@ -3,7 +3,7 @@
 
 Takes programs of tests/golden that need no configuration, makes one mistake at a time in each (a token or a character lost or
 doubled, two neighbours exchanged, a sign for a similar one), and counts the errors of `rapidc check`. Prints how many mistakes
-give no error, one, and several; `--several` lists the last. With `--compare` another rapidc checks the same mistakes, and every
+give no error, one, and several, for each kind of mistake and in all; `--several` lists the last. With `--compare` another rapidc checks the same mistakes, and every
 difference is listed. `--every N` takes each N-th mistake: 1 means all, some tens of thousands.
 """
 
@@ -64,6 +64,19 @@ def errors(rapidc, path):
     return re.findall(r"error\[(RAP\d{4})\]", done.stderr + done.stdout)
 
 
+def kind_of(what):
+    """"line 3, ';': as ':'" is of the kind "another sign"."""
+    kind = what.rsplit(": ", 1)[1]
+    return "another sign" if kind.startswith("as ") else kind
+
+
+def counted(counts):
+    total = sum(counts.values())
+    share = 100 / max(total, 1)
+    return (f"{total} mistakes: {counts[0]} without an error ({counts[0] * share:.1f} %), {counts[1]} with one, "
+            f"{counts[2]} with several ({counts[2] * share:.1f} %)")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rapidc", default=str(ROOT / "build/rapidc"))
@@ -77,7 +90,7 @@ def main():
         cases += [(path, what, wrong) for what, wrong in mistakes(text)]
     total = len(cases)
     cases = cases[::options.every]
-    counts, differences = collections.Counter(), []
+    counts, kinds, differences = collections.Counter(), collections.defaultdict(collections.Counter), []
     with tempfile.TemporaryDirectory() as folder:
 
         def judge(number):
@@ -93,16 +106,16 @@ def main():
         with concurrent.futures.ThreadPoolExecutor(options.j) as pool:
             for name, found, other in pool.map(judge, range(len(cases))):
                 counts[min(len(found), 2)] += 1
+                kinds[kind_of(name)][min(len(found), 2)] += 1
                 if found != other:
                     differences.append(f"{name}: {' '.join(found) or 'none'} (the other: {' '.join(other) or 'none'})")
                 if options.several and len(found) > 1:
                     print(f"{name}: {' '.join(found)}")
     for difference in differences:
         print(difference)
-    share = 100 / max(len(cases), 1)
-    print(f"{len(cases)} of {total} mistakes: {counts[0]} without an error ({counts[0] * share:.1f} %), {counts[1]} with one, "
-          f"{counts[2]} with several ({counts[2] * share:.1f} %)" +
-          (f"; {len(differences)} differ" if options.compare else ""))
+    for kind, own in sorted(kinds.items()):
+        print(f"{kind}: {counted(own)}")
+    print(f"{counted(counts)}, of {total}" + (f"; {len(differences)} differ" if options.compare else ""))
     return 0
 
 

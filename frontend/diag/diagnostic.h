@@ -24,7 +24,7 @@ enum class Code : uint16_t {
 #include "frontend/diag/diagnostics.def"
 };
 
-/// A diagnostic and the number of its arguments: a report with another number does not compile.
+/// A diagnostic and the number of its arguments: a report with a different number does not compile.
 template <size_t N> struct Message {
     Code code;
 };
@@ -58,10 +58,10 @@ struct Diagnostic {
     Code code{};
     Severity severity = Severity::Error;
     CauseId cause = CauseId::None; ///< of a check: for the last pass over the diagnostics
-    CauseId line =
-        CauseId::None; ///< cause of the report that its line lacks the semicolon: perhaps one mistake
-    std::shared_ptr<const SourceFile>
-        file; ///< may be null: a message about the command line or a missing file
+    /// Cause of the report that its line lacks the semicolon: perhaps one mistake.
+    CauseId line = CauseId::None;
+    /// May be null: a message about the command line or a missing file.
+    std::shared_ptr<const SourceFile> file;
     SourceRange range;
     std::string message;           ///< lower-case start, one sentence, no full stop
     std::vector<std::string> args; ///< {0}, {1}, ... of the message
@@ -78,7 +78,7 @@ class Sink {
     /// That many errors, and that many warnings and notes, are kept of one file; a note says that there were more.
     static constexpr uint32_t kMaxPerFile = 1000;
 
-    /// `args` replace {0}, {1}, ... in the catalogue text. The reference is good until the next report.
+    /// `args` replace {0}, {1}, ... in the catalogue text. The reference is valid until the next report.
     template <size_t N>
     Diagnostic& report(Message<N> message, const std::shared_ptr<const SourceFile>& file, SourceRange range,
                        MessageArgs<N> args) {

@@ -4,6 +4,7 @@
 #include "frontend/sema/names.h"
 #include "frontend/sema/references.h"
 #include "frontend/syntax/lexer.h"
+#include "frontend/syntax/limits.h"
 #include "frontend/syntax/token_set.h"
 #include "frontend/syntax/tree_walk.h"
 
@@ -22,8 +23,6 @@ using sema::Symbol;
 using sema::SymbolKind;
 
 namespace {
-
-constexpr size_t kMaxNameLength = 32; // manual 1.1.2
 
 /// A declaration as a place, equal in the checks before and after: files keep their number of tokens.
 struct Site {
@@ -385,8 +384,8 @@ std::string newNameProblem(std::string_view name, const sema::CheckedProgram& pr
         return fmt::format(
             "'{}' is not a name: expected letters of ISO 8859-1, digits and '_', a letter first",
             shown(name));
-    if (characters(name) > kMaxNameLength)
-        return fmt::format("'{}' has more than {} characters", name, kMaxNameLength);
+    if (characters(name) > syntax::kMaxNameLength)
+        return fmt::format("'{}' has more than {} characters", name, syntax::kMaxNameLength);
     if (component) return {};
     const std::string folded = sema::foldName(name);
     for (const sema::Module* module : program.predefinedModules) {

@@ -112,7 +112,7 @@ std::string addEdits(const SyntaxTree& tree, const Declarations& declared, const
     std::vector<TextEdit> own;
     LeafWriter writer(tree, *parsed.tree, codes, own);
     if (!writer.write(*found->second->init, *parsed.expr))
-        return fmt::format("the initial value in the file has another form than {}", value.value);
+        return fmt::format("the initial value in the file has a different form than {}", value.value);
     edits.insert(edits.end(), own.begin(), own.end());
     return {};
 }

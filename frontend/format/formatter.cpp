@@ -217,7 +217,7 @@ FormatResult format(const SyntaxTree& tree, const std::vector<SourceRange>& erro
     result.problem = refusal(tree, errors, request.keepErrors);
     if (!result.ok()) return result;
     if (tree.tokens.size() == 1 && tree.modules.empty()) return result; // nothing but comments
-    // A mistake, or an instruction that continues outside of the range, may be read in another way when something near
+    // A mistake, or an instruction that continues outside of the range, may be read in a different way when something near
     // it moves. Then that part is left as it is too.
     const bool partly = !errors.empty() || request.firstLine > 1 || request.lastLine != UINT32_MAX;
     std::vector<SourceRange> untouched = errors;

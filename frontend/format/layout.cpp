@@ -221,7 +221,7 @@ class Layout {
         return {next.endsBlock && belongsToEnd() ? next.level : next.commentLevel, 0};
     }
 
-    /// A comment before ELSE, CASE, ENDIF ...: does it stand under the word that ends the block, while the block
+    /// A comment before ELSE, CASE, ENDIF ...: is it aligned with the word that ends the block, while the block
     /// itself is moved in?
     bool belongsToEnd() {
         const TokenIndex t = atom().token;

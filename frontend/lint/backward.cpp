@@ -119,7 +119,7 @@ class BackwardJudge {
         };
         if (!std::equal(body.begin(), body.end(), handler.begin(), sameTarget)) return;
         if (std::equal(body.rbegin(), body.rend(), handler.begin(), sameTarget)) return;
-        report(handler.front(), fmt::format("the targets stand in the order of the body, expected '{}' first",
+        report(handler.front(), fmt::format("the targets are in the order of the body, expected '{}' first",
                                             named(body.back().target)->name));
     }
 

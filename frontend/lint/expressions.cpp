@@ -161,7 +161,7 @@ void Walker::judgeCase(const Expr& subject, const Expr& value) {
         judgeSignal(subject, value);
 }
 
-/// A digital signal against a constant (also of a CASE).
+/// A digital signal against a constant (including a CASE).
 void Walker::judgeSignal(const Expr& signal, const Expr& value) {
     const Expr& place = bare(signal);
     const DataSymbol* root = place.kind == NodeKind::Name ? rootOf(place) : nullptr;

@@ -187,7 +187,7 @@ class BackupLoader {
         return task;
     }
 
-    /// backinfo.txt lists the tasks; without it the folders stand for the tasks of CAB_TASKS in their order.
+    /// backinfo.txt lists the tasks; without it the folders represent the tasks of CAB_TASKS in their order.
     void findTasks() {
         std::vector<fs::path> folders;
         for (const fs::path& path : files_.list(rapid_)) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kSections = {"format", "warnings"};
 
-/// The place of `"name"` as a key at or after `from`; an empty range at `from` if it is written in another way.
+/// The place of `"name"` as a key at or after `from`; an empty range at `from` if it is written in a different way.
 SourceRange placeOf(std::string_view text, const std::string& name, size_t from) {
     const std::string key = '"' + name + '"';
     for (size_t at = text.find(key, from); at != std::string_view::npos; at = text.find(key, at + 1)) {

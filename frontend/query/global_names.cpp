@@ -49,7 +49,7 @@ void GlobalNames::build(OfTask& names, const Task& task) {
     }
 }
 
-/// False when the table has to be built anew.
+/// False when the table has to be built again.
 bool GlobalNames::update(OfTask& names, const Task& task) {
     if (names.hasDuplicates ||
         !std::equal(task.modules.begin(), task.modules.end(), names.modules.begin(), names.modules.end(),

@@ -39,7 +39,7 @@ struct Location {
     }
 };
 
-/// One generation of a program: made anew (cheap) after each check, because symbols and trees are replaced then. Trees make
+/// One generation of a program: made again (cheap) after each check, because symbols and trees are replaced then. Trees make
 /// parts of plain aggregates when asked, so only one thread at a time may use the snapshots of a program.
 class Snapshot {
   public:

@@ -1,4 +1,4 @@
-// Arguments that would fit in another order, or with one more or one less: one report.
+// Arguments that would fit in a different order, or with one more or one less: one report.
 
 #include "frontend/sema/argument_order.h"
 #include "frontend/sema/arguments.h"
@@ -23,7 +23,7 @@ constexpr size_t kMostArguments = 16; // of calls that are looked at
 } // namespace
 
 /// Whether a parameter of this mode takes the data; the type does not count.
-bool mayStandFor(const DataSymbol& root, ParamMode mode) {
+bool acceptsData(const DataSymbol& root, ParamMode mode) {
     const bool parameter = root.storage == Storage::Parameter;
     if (mode == ParamMode::In || mode == ParamMode::Ref) return true;
     if (root.storage == Storage::Signal) return mode != ParamMode::Pers;
@@ -51,7 +51,7 @@ bool ArgumentOrder::couldBe(const Expr& e, const DataSymbol& param) {
         base = base->kind == NodeKind::Index ? as<IndexExpr>(*base).base : as<ComponentExpr>(*base).base;
     const DataSymbol* root = base->kind == NodeKind::Name ? asData(info(*base).symbol) : nullptr;
     const bool byReference = param.mode != ParamMode::In || want.kind == TypeKind::SemiValue;
-    if (byReference && (!root || !mayStandFor(*root, param.mode))) return false;
+    if (byReference && (!root || !acceptsData(*root, param.mode))) return false;
     if (want.kind == TypeKind::AnyType) return !missingClass(param.accepts, found);
     const bool numeric = found.rank == 0 && param.type.rank == 0 && want.isNumeric();
     if (!byReference && numeric && found.type->kind == TypeKind::SemiValue) return true;
@@ -70,19 +70,42 @@ bool ArgumentOrder::errorsLieIn(const std::vector<const Expr*>& given) const {
                        });
 }
 
-// "Move p,x;" for "Move p.x;": nothing is named 'x' but a component of the argument before it.
+bool ArgumentOrder::isDeclaredData(TokenIndex name) const {
+    const DataSymbol* data = asData(scopes_.lookup(idOf(name)));
+    return data && data->index != kNoIndex; // not the stand-in of an undeclared name
+}
+
+// "Move p,x;" for "Move p.x;", "NumToStr(frame,trans.x, 1)": no data is named so, but a component of the argument before it.
 bool ArgumentOrder::explainComma(std::span<Argument* const> args) {
     for (size_t i = 0; i + 1 < args.size(); ++i) {
         const Expr *whole = args[i]->value, *part = args[i + 1]->value;
-        if (!whole || !part || part->kind != NodeKind::Name || args[i + 1]->argKind != ArgKind::Required)
-            continue;
+        if (!whole || !part || args[i + 1]->argKind != ArgKind::Required || !isName(part->first)) continue;
         const DataType& type = info(*whole).type();
-        if (range(*part).begin != range(*whole).end + 1 || info(*part).type().type->kind != TypeKind::Error ||
-            type.rank > 0 || type.type->kind != TypeKind::Record || type.type->findComponent(text(*part)) < 0)
+        const TokenIndex component = part->first;
+        if (range(component).begin != range(*whole).end + 1 || isDeclaredData(component) || type.rank > 0 ||
+            type.type->kind != TypeKind::Record ||
+            type.type->findComponent(context_.tree->text(component)) < 0)
             continue;
         reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
-        const SourceRange comma{range(*whole).end, range(*part).begin};
+        const SourceRange comma{range(*whole).end, range(component).begin};
         report(say::UnexpectedToken, comma, {"','", "'.' before a component"}).fix(comma, ".");
+        return true;
+    }
+    return false;
+}
+
+// "Open path, file /Write;": no data is named as the option after the slash.
+bool ArgumentOrder::explainSlash(const RoutineSymbol& routine, std::span<Argument* const> args) {
+    for (const Argument* arg : args) {
+        if (!arg->value || arg->value->kind != NodeKind::Binary) continue;
+        const auto& quotient = as<BinaryExpr>(*arg->value);
+        const TokenIndex option = quotient.opToken + 1;
+        if (quotient.op != BinaryOp::Div || !isName(option) || isDeclaredData(option) ||
+            calls_.namedOptional(routine, idOf(option)) >= routine.params.size())
+            continue;
+        reports_.collected()->retract([](const diag::Diagnostic&) { return true; });
+        const SourceRange slash = range(quotient.opToken);
+        report(say::UnexpectedToken, slash, {"'/'", "'\\' before an optional argument"}).fix(slash, "\\");
         return true;
     }
     return false;
@@ -116,7 +139,7 @@ void ArgumentOrder::reportSwapped(const RoutineSymbol& routine, const DataSymbol
                                   bool certain) {
     report(say::ArgumentsSwapped, range(first), {one.name, other.name, routine.name})
         .fixes.push_back(
-            {"let them change places",
+            {"swap them",
              {{range(first), remedies_.written(second)}, {range(second), remedies_.written(first)}},
              certain});
 }

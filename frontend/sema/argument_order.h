@@ -15,6 +15,8 @@ class ArgumentOrder : CheckerPart {
                           std::span<syntax::Argument* const> args);
     /// The same for a decimal comma.
     bool explainComma(std::span<syntax::Argument* const> args);
+    /// The same for '/' before an optional argument.
+    bool explainSlash(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
     /// "SetDO do1 := 1;": a comma or a backslash is missing. False: nothing was reported.
     bool reportMisspeltSeparator(const RoutineSymbol& routine, const syntax::Argument& arg, size_t slot,
                                  bool isLast);
@@ -26,6 +28,7 @@ class ArgumentOrder : CheckerPart {
                       const std::vector<const DataSymbol*>& params,
                       const std::vector<const syntax::Expr*>& given);
     bool errorsLieIn(const std::vector<const syntax::Expr*>& given) const;
+    bool isDeclaredData(syntax::TokenIndex name) const;
     bool couldBe(const syntax::Expr& e, const DataSymbol& param);
     void reportSwapped(const RoutineSymbol& routine, const DataSymbol& one, const DataSymbol& other,
                        const syntax::Expr& first, const syntax::Expr& second, bool certain);
@@ -37,6 +40,6 @@ class ArgumentOrder : CheckerPart {
 };
 
 /// Whether a parameter of this mode can take the data.
-bool mayStandFor(const DataSymbol& root, syntax::ParamMode mode);
+bool acceptsData(const DataSymbol& root, syntax::ParamMode mode);
 
 } // namespace rapid::sema

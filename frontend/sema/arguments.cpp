@@ -118,8 +118,8 @@ bool Arguments::reportEqualAsAssign(const BoundArg& bound) {
     return true;
 }
 
-// Whether an argument could stand for one of the parameters, which share a place.
-bool Arguments::couldStandFor(const Expr& value, std::span<const BoundArg> params) {
+// Whether an argument could belong to one of the parameters, which share a place.
+bool Arguments::couldBelongTo(const Expr& value, std::span<const BoundArg> params) {
     const DataSymbol* entire =
         value.kind == NodeKind::Name ? asData(scopes_.lookup(idOf(as<NameExpr>(value).name))) : nullptr;
     const DataType& found = info(value).type();
@@ -153,10 +153,10 @@ std::span<const BoundArg> Arguments::leftOut(const BoundCall& call, std::vector<
     }
     if (places.size() != given.size() + 1) return {};
     size_t out = 0;
-    while (out < given.size() && couldStandFor(*given[out], places[out]))
+    while (out < given.size() && couldBelongTo(*given[out], places[out]))
         ++out;
     for (size_t i = out; i < given.size(); ++i)
-        if (!couldStandFor(*given[i], places[i + 1])) return {};
+        if (!couldBelongTo(*given[i], places[i + 1])) return {};
     moved.assign(given.begin() + static_cast<std::ptrdiff_t>(out), given.end());
     return places[out];
 }
@@ -174,12 +174,12 @@ void Arguments::takeBack(const std::vector<const Expr*>& moved) {
     });
 }
 
-// "MoveL p10.v100, fine, tool0;": no component is named so, but data is.
+// "MoveL p10.v100, fine, tool0;", "Add count.step;": no component is named so, but data is.
 bool Arguments::isDotForComma(const Expr& e) {
     if (e.kind != NodeKind::Component) return false;
     const auto& part = as<ComponentExpr>(e);
     return isName(part.name) && info(e).type().type->kind == TypeKind::Error &&
-           info(*part.base).type().type->kind == TypeKind::Record && asData(scopes_.lookup(idOf(part.name)));
+           info(*part.base).type().type->kind != TypeKind::Error && asData(scopes_.lookup(idOf(part.name)));
 }
 
 // Arguments of the wrong type, and those that are missing. One that is missing in the middle is one mistake.
@@ -310,7 +310,7 @@ void Arguments::checkAccess(const RoutineSymbol& routine, const BoundArg& bound,
     if (root.storage == Storage::SystemVariable && isHandle(*root.type.type))
         return; // passed on, never changed
     const bool persistent = parameter ? root.mode == ParamMode::Pers : root.dataKind == DataKind::Pers;
-    if (!mayStandFor(root, mode)) {
+    if (!acceptsData(root, mode)) {
         std::string found = parameter && root.mode == ParamMode::In    ? "a parameter of mode IN"
                             : parameter && root.mode == ParamMode::Var ? "a parameter of mode VAR"
                             : parameter && persistent                  ? "a parameter of mode PERS"

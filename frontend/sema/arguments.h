@@ -46,7 +46,7 @@ class Arguments : CheckerPart {
     void checkConditional(const RoutineSymbol& routine, BoundArg& bound);
     void judgeConditional(const RoutineSymbol& routine, const BoundArg& bound, const syntax::Expr& e);
     void checkReference(const RoutineSymbol& routine, const BoundArg& bound);
-    bool couldStandFor(const syntax::Expr& value, std::span<const BoundArg> params);
+    bool couldBelongTo(const syntax::Expr& value, std::span<const BoundArg> params);
     std::span<const BoundArg> leftOut(const BoundCall& call, std::vector<const syntax::Expr*>& moved);
     void takeBack(const std::vector<const syntax::Expr*>& moved);
     bool reportEqualAsAssign(const BoundArg& bound);

@@ -131,17 +131,28 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
     }
     judged_.resize(judgedBefore);
     const bool wrong = own.hasErrors() || arguments_.mismatchCount() > mismatchesBefore;
-    if (wrong && (order_.explainComma(args) || order_.explainArguments(call, name, args)))
+    if (wrong && (order_.explainComma(args) || order_.explainSlash(routine, args) ||
+                  order_.explainArguments(call, name, args)))
         arguments_.forgetMismatches(mismatchesBefore);
     else if ((mayMiss && nextLacking(call, 0) < routine.params.size()) ||
              arguments_.mismatchCount() > mismatchesBefore)
         arguments_.reportArguments(call, name, mismatchesBefore, mayMiss);
     else if (mayMiss)
         arguments_.forgetShape(); // of this call
+    dropSurplus(own);
     reports_.collectIn(outer);
     --callDepth_;
     if (own.all().empty()) return;
     (outer ? *outer : state_.sink).absorb(own);
+}
+
+/// An argument too many follows from the other mistake in the call, if there is one: a sign that should be another one.
+void CallBinder::dropSurplus(diag::Sink& reports) {
+    const auto isSurplus = [](const diag::Diagnostic& d) { return d.code == diag::Code::TooManyArguments; };
+    const bool others = std::any_of(reports.all().begin(), reports.all().end(), [&](const auto& d) {
+        return d.severity == diag::Severity::Error && !isSurplus(d);
+    });
+    if (others) reports.retract(isSurplus);
 }
 
 // Whether the arguments were read to their end: after a syntax error in a call nothing is said to be missing.

@@ -43,6 +43,7 @@ class CallBinder : CheckerPart {
     size_t matchRequired(BoundCall& call, const syntax::Argument& arg, size_t slot, bool isLast);
     size_t matchOptional(BoundCall& call, const syntax::Argument& arg, syntax::TokenIndex name);
     size_t chooseAlternative(BoundCall& call, const syntax::Argument& arg, size_t first, size_t end);
+    static void dropSurplus(diag::Sink& reports);
     void checkExclusive(const BoundCall& call);
     void visitArgument(const syntax::Argument& arg);
 

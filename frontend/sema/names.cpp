@@ -10,7 +10,7 @@ namespace rapid::sema {
 
 namespace {
 
-/// Equal for names that differ in case only: the bit that distinguishes upper from lower case is left out, also in the
+/// Equal for names that differ in case only: the bit that distinguishes upper from lower case is left out, even in the
 /// second bytes of ISO 8859-1 letters. Eight bytes at a time, the last ones overlapping those before.
 uint32_t foldedHash(std::string_view name) {
     constexpr uint64_t kLowerCase = 0x2020202020202020u;

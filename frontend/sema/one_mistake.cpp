@@ -239,7 +239,7 @@ class UseWalk {
         if (param.type.type->kind == TypeKind::AnyType) return expression(&value, anything());
         const bool typed = find(value, Misfit::Type) != nullptr;
         const Diagnostic* access = find(value, Misfit::Access);
-        if (access && !typed) { // of the right type, but of another kind
+        if (access && !typed) { // of the right type, but of a different kind
             if (const Symbol* root = rootOf(value)) kinds_[{root, param.mode}].push_back(access);
             return expression(&value);
         }

@@ -23,7 +23,7 @@ struct Repeat {
 };
 
 /// What `said`, the errors of one file, report more than once: declarations that all uses contradict in the same way, and
-/// data that all instructions need of another kind. `modules`: those of the file, whose routines are still known;
+/// data that all instructions need of a different kind. `modules`: those of the file, whose routines are still known;
 /// `misfits`: the places of the tree that the reports are about.
 std::vector<Repeat> findRepeats(const CheckedProgram& program, std::span<Module* const> modules,
                                 const std::vector<const diag::Diagnostic*>& said,

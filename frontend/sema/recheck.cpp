@@ -107,7 +107,7 @@ void Analyzer::enterTask(TaskContext task) {
     state_.task.spareAssumed.clear();
 }
 
-// The shared part of files that are `open`: it begins anew each time, and all of them are checked again.
+// The shared part of files that are `open`: it begins again each time, and all of them are checked again.
 void Analyzer::clearLooseEnds() {
     for (DataSymbol* symbol : state_.task.assumed)
         put<DataSymbol>(state_.task.configured, symbol->nameId, nullptr);

@@ -7,7 +7,7 @@ namespace rapid::sema {
 
 /// How a node of the tree does not fit the declaration of what it uses.
 enum class Misfit : uint8_t {
-    Type,      ///< the value of an expression has another type than its place needs
+    Type,      ///< the value of an expression has a different type than its place needs
     Operator,  ///< an operator does not take the types of its operands
     NotArray,  ///< an index
     NotRecord, ///< a component
@@ -48,7 +48,7 @@ class Reports {
     /// Reports about the arguments of the call being checked go to `sink`; null: not in a call. Returns the value before.
     diag::Sink* collectIn(diag::Sink* sink) { return std::exchange(collect_, sink); }
     diag::Sink* collected() const { return collect_; }
-    /// The rest of a line of the routine that was meant in another way, which is reported.
+    /// The rest of a line of the routine that was meant in a different way, which is reported.
     void setQuietLine(SourceRange line) {
         quietLine_ = line;
         quietTree_ = context_.tree;

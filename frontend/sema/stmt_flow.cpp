@@ -94,8 +94,7 @@ bool FlowStatements::reportConnectSwapped(const ConnectStmt& s) {
     if (!trap || trap->routineKind != RoutineKind::Trap || !asData(scopes_.lookup(idOf(s.trap))))
         return false;
     report(say::ArgumentsSwapped, range(first), {"interrupt", "trap routine", "CONNECT"})
-        .fixes.push_back(
-            {"let them change places", {{range(first), text(s.trap)}, {range(s.trap), text(first)}}});
+        .fixes.push_back({"swap them", {{range(first), text(s.trap)}, {range(s.trap), text(first)}}});
     return true;
 }
 

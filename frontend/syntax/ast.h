@@ -262,7 +262,8 @@ struct ParamDecl : Node {
     uint32_t group = 0;         ///< parameters joined by '|' share a number; numbers ascend
     TokenIndex type = kNoToken; ///< kNoToken for switch
     TokenIndex name = kNoToken;
-    uint8_t rank = 0; ///< number of '*'; 0 = no array; 255 = <DIM>
+    static constexpr uint8_t kPlaceholderRank = 255; ///< <DIM>
+    uint8_t rank = 0;                                ///< number of '*'; 0 = no array
 };
 enum class RoutineKind : uint8_t { Proc, Func, Trap };
 struct ErrorClause : Node {

@@ -10,7 +10,7 @@ namespace rapid::syntax {
 
 enum class PlainPiece : uint8_t { Open, Close, Comma, Number, String, Bool, Other };
 
-/// Over the text: for aggregates that are one token. A NUL must follow the text. Anything else, also if only unusual, is PlainPiece::Other.
+/// Over the text: for aggregates that are one token. A NUL must follow the text. Anything else, even if only unusual, is PlainPiece::Other.
 /// `known`: somebody went over the text before, there is nothing unusual in it.
 template <bool known> class PlainText {
   public:

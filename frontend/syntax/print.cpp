@@ -193,9 +193,8 @@ class TreePrinter {
 
     std::string param(const ParamDecl& n) const {
         if (n.placeholder) return fmt::format(" {}group {}", n.optional ? "optional " : "", n.group);
-        constexpr uint8_t kPlaceholderRank = 255;
         std::string rank;
-        if (n.rank == kPlaceholderRank) {
+        if (n.rank == ParamDecl::kPlaceholderRank) {
             rank = " {<DIM>}";
         } else if (n.rank > 0) {
             rank = fmt::format(" rank {}", n.rank);

@@ -19,7 +19,7 @@ template <class T> void all(std::span<T*> children, const Visit& visit) {
 
 void visitRoutine(const RoutineDecl& n, const Visit& visit) {
     all(n.params, visit);
-    // Semicolons between the declarations are instructions, and handlers may stand in any order.
+    // Semicolons between the declarations are instructions, and handlers may be in any order.
     std::vector<std::pair<TokenIndex, const Node*>> children;
     const auto add = [&](auto list) {
         for (const Node* child : list)
@@ -54,6 +54,7 @@ constexpr Group kGroups[] = {
 
 } // namespace
 
+// Size: one case for each kind of node.
 void forEachChild(const Node& node, const Visit& visit) {
     switch (node.kind) {
     case NodeKind::NumLiteral:

@@ -25,7 +25,7 @@ struct Inputs {
     std::string home;                     ///< --home; "" when none was chosen
     bool requireMain = false;
     std::vector<std::string> warnings; ///< -W
-    bool lint = false;                 ///< with the warnings of 8xxx, also where -W does not name them
+    bool lint = false;                 ///< with the warnings of 8xxx, even where -W does not name them
     bool onlyDiagnostics = false;      ///< nothing is lowered: the inside of routines need not be kept
     bool documented = false;    ///< with the documentation of what is predefined, for people who read it
     bool assumeSignals = false; ///< define the signals that the configuration lacks as the program uses them

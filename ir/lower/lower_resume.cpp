@@ -1,5 +1,5 @@
 // Which instructions a later process can enter again in the middle (--state, manual 1.2.2 "Power on"): the routine in
-// progress is called anew by executing the instruction that called it from its beginning. So what that instruction does
+// progress is called again by executing the instruction that called it from its beginning. So what that instruction does
 // before the call must have no effect, and must not be needed after the call unless no other task can change it.
 
 #include "frontend/syntax/tree_walk.h"

@@ -388,7 +388,7 @@ class ModuleParser {
         return true;
     }
 
-    /// Rule `Same`: known only now that the results of calls are, too; a definition may stand below its use.
+    /// Rule `Same`: known only now that the results of calls are, too; a definition may be below its use.
     void inferResults() {
         for (Routine& routine : module_.routines) {
             for (bool changed = true; changed;) {

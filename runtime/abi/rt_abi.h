@@ -339,7 +339,7 @@ rt::Status rt_propagate(rt::TaskCore* task, rt::Frame* frame);
 /// The end of an error handler was reached (manual 1.12): system handler. Returns kUnwind.
 rt::Status rt_handlerEnd(rt::TaskCore* task, rt::Frame* frame);
 /// RETRY in the handler of `frame`: counts; 0, or an unwinding status when the task stopped because No Of Retry is
-/// exceeded. Started again, it counts anew.
+/// exceeded. Started again, it counts again.
 rt::Status rt_retry(rt::TaskCore* task, rt::Frame* frame);
 /// Stepping profile, before a statement, when the budget is used up or TaskCore::askSteps is set: the task may stop
 /// here or be sent elsewhere. Returns the number of the statement to execute next (>= 0), or a negative status (unwind).

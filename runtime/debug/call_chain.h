@@ -19,7 +19,7 @@ struct SavedLocal {
         Absent, ///< optional parameter that is not given
         Object, ///< a parameter that refers to a part of `object`, a named data object
         Copy, ///< a parameter that refers to something without a name: an expression, an array of its own; `value`
-        Fresh ///< a file, a socket ...: made anew
+        Fresh ///< a file, a socket ...: made again
     };
     Kind kind = Kind::Value;
     std::string type; ///< with all components and dimensions

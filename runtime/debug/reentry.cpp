@@ -100,7 +100,7 @@ std::string Reentry::restoreLocal(const SteppingFrame& frame, uint32_t index, co
     const StateKeepers& keepers = host_.stateKeepers();
     const SavedLocal now = takeLocal(frame, index, task.frames(), {task, data_, keepers});
     const auto differs = [&desc](const char* how) { return fmt::format("'{}' {}", desc.name, how); };
-    if (now.type != saved.type) return differs("has another type or another size");
+    if (now.type != saved.type) return differs("has a different type or size");
     if (now.kind != saved.kind) return differs("is not what it was");
     switch (saved.kind) {
     case SavedLocal::Kind::Absent:

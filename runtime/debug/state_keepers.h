@@ -21,7 +21,7 @@ struct StateKeepers {
         std::function<void(const nlohmann::json&)> load; ///< may throw what the JSON library throws
     };
     std::map<std::string, Keeper> keepers; ///< by name; loaded only when the program continues
-    /// Objects that variables name by handles (clocks ...), as texts. Handles of types without an entry are made anew.
+    /// Objects that variables name by handles (clocks ...), as texts. Handles of types without an entry are made again.
     struct HandleKeeper {
         std::function<std::string(Handle)> textOf; ///< "": the variable names no object
         std::function<Handle(const std::string&)>

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/robot/angles.h"
+#include "runtime/robot/lengths.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@ namespace rt {
 
 namespace {
 
-constexpr double kMmPerMetre = 1000;
 constexpr int kFirstLogicalAxis = 7; // of the external axes
 
 } // namespace
@@ -30,7 +30,7 @@ robot::Pose baseFrameOf(const CfgInstance& instance) {
     for (int i = 0; i < 3; ++i) {
         double metres = 0;
         if (instance.number(fmt::format("base_frame_pos_{}", "xyz"[i]), metres))
-            *position[i] = metres * kMmPerMetre;
+            *position[i] = metres * robot::kMmPerMetre;
     }
     double* const q[] = {&base.rot.w, &base.rot.x, &base.rot.y, &base.rot.z};
     for (int i = 0; i < 4; ++i)
@@ -71,7 +71,7 @@ bool AxisReader::isRotating() const {
 motion::ExternalAxisModel AxisReader::limits() const {
     motion::ExternalAxisModel axis;
     axis.rotating = isRotating();
-    const double unit = axis.rotating ? robot::kDegreesPerRadian : kMmPerMetre;
+    const double unit = axis.rotating ? robot::kDegreesPerRadian : robot::kMmPerMetre;
     axis.maxSpeed = axis.rotating ? 180 : 1500;
     axis.maxAcceleration = axis.rotating ? 360 : 2500;
     double value = 0;
@@ -105,11 +105,11 @@ std::optional<robot::Pose> AxisReader::step() const {
         type->number(name, result);
         return result;
     };
-    const robot::Pose twist{{value("length") * kMmPerMetre, 0, 0},
+    const robot::Pose twist{{value("length") * robot::kMmPerMetre, 0, 0},
                             robot::fromAxisAngle({1, 0, 0}, value("attitude") * robot::kDegreesPerRadian)};
     const robot::Pose turn{
         {}, robot::fromAxisAngle({0, 0, 1}, value("theta_home_position") * robot::kDegreesPerRadian)};
-    return twist * turn * robot::Pose{{0, 0, value("offset_z") * kMmPerMetre}, {}};
+    return twist * turn * robot::Pose{{0, 0, value("offset_z") * robot::kMmPerMetre}, {}};
 }
 
 /// Speed of the arm, rad/s or m/s, from that of the motor; 0 = not given.

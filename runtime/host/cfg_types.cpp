@@ -3,6 +3,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
 #include "runtime/robot/angles.h"
+#include "runtime/robot/lengths.h"
 
 #include <fmt/format.h>
 
@@ -18,8 +19,6 @@ std::string robotTypeName(const std::string& model, std::size_t group) {
 }
 
 namespace {
-
-constexpr double kMillimetres = 1000;
 
 struct Row {
     const char *domain, *type, *attributes;
@@ -81,7 +80,7 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
     if (!unit.isRobot) {
         int number = 0;
         for (const MechanicalUnit::Axis& own : unit.own) {
-            const double factor = own.limits.rotating ? robot::kDegreesPerRadian : kMillimetres;
+            const double factor = own.limits.rotating ? robot::kDegreesPerRadian : robot::kMmPerMetre;
             axes.push_back({own.single.empty() ? fmt::format("{}_{}", unit.name, number + 1) : own.single,
                             7 + static_cast<int>(own.index), ++number, own.limits.rotating,
                             own.limits.lower / factor, own.limits.upper / factor});
@@ -92,7 +91,7 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
     const robot::Kinematics kinematics(model);
     for (std::size_t i = 0; i < kinematics.jointCount(); ++i) {
         const int number = kinematics.axisNumber(i);
-        const double factor = kinematics.isLinear(i) ? kMillimetres : robot::kDegreesPerRadian;
+        const double factor = kinematics.isLinear(i) ? robot::kMmPerMetre : robot::kDegreesPerRadian;
         axes.push_back({fmt::format("rob{}_{}", unit.group + 1, number), number, number,
                         !kinematics.isLinear(i), model.lowerDeg[i] / factor, model.upperDeg[i] / factor});
     }
@@ -100,9 +99,9 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
 }
 
 void putFrame(CfgInstance& instance, const robot::Pose& frame) {
-    putNumber(instance, "base_frame_pos_x", frame.pos.x / kMillimetres);
-    putNumber(instance, "base_frame_pos_y", frame.pos.y / kMillimetres);
-    putNumber(instance, "base_frame_pos_z", frame.pos.z / kMillimetres);
+    putNumber(instance, "base_frame_pos_x", frame.pos.x / robot::kMmPerMetre);
+    putNumber(instance, "base_frame_pos_y", frame.pos.y / robot::kMmPerMetre);
+    putNumber(instance, "base_frame_pos_z", frame.pos.z / robot::kMmPerMetre);
     putNumber(instance, "base_frame_orient_u0", frame.rot.w);
     putNumber(instance, "base_frame_orient_u1", frame.rot.x);
     putNumber(instance, "base_frame_orient_u2", frame.rot.y);

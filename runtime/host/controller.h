@@ -82,7 +82,7 @@ class Controller final : public DebugHost {
     std::vector<const CfgInstance*> instances(std::string_view domain, std::string_view type) const;
     /// Random numbers for Rand, started with --seed; the same sequence on every machine.
     std::mt19937& random() { return random_; }
-    /// Date and time of the controller: the wall's at the start plus virtual time. Seconds since 1970, UTC.
+    /// Date and time of the controller: that of the wall clock at the start plus virtual time. Seconds since 1970, UTC.
     int64_t calendarSeconds() const;
     /// An operator sets the clock.
     void setCalendarSeconds(int64_t seconds) { startCalendar_ += seconds - calendarSeconds(); }
@@ -107,7 +107,7 @@ class Controller final : public DebugHost {
                                     const Task& task) const override;
 
     /// Reads configuration, robot, HOME:, stimulus; opens output files; makes the tasks; connects what the
-    /// program names. Problems are written to stderr. Ended when all is well.
+    /// program names. Problems are written to stderr. Ended when there are none.
     ExitStatus prepare(const ProgramDesc& program);
     /// Runs to the end.
     ExitStatus run();
@@ -135,7 +135,7 @@ class Controller final : public DebugHost {
     /// Called between the tasks, often.
     void onLook(std::function<void()> action) { lookActions_.push_back(std::move(action)); }
 
-    /// Called whenever the program of a task begins anew, before its RESET routines (settings go back to their defaults).
+    /// Called whenever the program of a task begins again, before its RESET routines (settings go back to their defaults).
     void onProgramReset(std::function<void(Task&)> action) { resetActions_.push_back(std::move(action)); }
 
     /// Called when everything that is open is closed: at a power failure and at the end of the run, once no routine is in
@@ -147,7 +147,7 @@ class Controller final : public DebugHost {
         lossActions_.push_back(std::move(action));
     }
 
-    /// Called before the process sleeps for the wall clock or for something outside: what people look at is to be complete.
+    /// Called before the process sleeps for the wall clock or for something outside: output must be complete.
     void onSleep(std::function<void()> action) { sleepActions_.push_back(std::move(action)); }
 
     // ---- Controller actions (stimulus, clients): reach all NORMAL tasks -----------------------------------
@@ -156,7 +156,7 @@ class Controller final : public DebugHost {
     /// Motors off: the arm leaves its path; the next start switches them on and returns to it first (manual 2.2.6).
     void actionEmergencyStop();
     /// Everything is halted until actionPowerOn(); then data are as before, outputs as at the start of the controller,
-    /// STATIC tasks continue, SEMISTATIC ones begin anew, NORMAL ones wait for a start (manual 1.2.2, 1.20, 2.10).
+    /// STATIC tasks continue, SEMISTATIC ones begin again, NORMAL ones wait for a start (manual 1.2.2, 1.20, 2.10).
     void actionPowerFail();
     void actionPowerOn();
     void actionStart();

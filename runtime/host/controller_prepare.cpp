@@ -251,19 +251,17 @@ void Controller::assignGroups() {
 
 ExitStatus Controller::openFiles() {
     std::string error;
-    if (!(options_.home.empty() ? volumes_.openTemporary(error) : volumes_.open(options_.home, error))) {
-        print("--home: " + error);
+    const auto refuse = [&error](const char* option) {
+        print(fmt::format("{}: {}", option, error));
         return ExitStatus::BadUsage;
-    }
+    };
+    if (!(options_.home.empty() ? volumes_.openTemporary(error) : volumes_.open(options_.home, error)))
+        return refuse("--home");
     for (const std::string& volume : options_.volumes) {
-        if (volumes_.useAsWritten(volume, error)) continue;
-        print("--volume: " + error);
-        return ExitStatus::BadUsage;
+        if (!volumes_.useAsWritten(volume, error)) return refuse("--volume");
     }
     for (const std::string& device : options_.devices) {
-        if (volumes_.addDevice(device, error)) continue;
-        print("--device: " + error);
-        return ExitStatus::BadUsage;
+        if (!volumes_.addDevice(device, error)) return refuse("--device");
     }
     if (const std::string& problem = service<CameraNames>().problem; !problem.empty()) {
         print("--camera: " + problem);
@@ -271,37 +269,26 @@ ExitStatus Controller::openFiles() {
     }
     if (!options_.outputs.trace.empty()) {
         trace_ = std::make_unique<TraceWriter>(options_.outputs.motors);
-        if (!trace_->open(options_.outputs.trace, error)) {
-            print("--trace: " + error);
-            return ExitStatus::BadUsage;
-        }
+        if (!trace_->open(options_.outputs.trace, error)) return refuse("--trace");
         traceMotion();
     }
     if (!options_.outputs.signals.empty()) {
         signalsWriter_ = std::make_unique<SignalsWriter>();
-        if (!signalsWriter_->open(options_.outputs.signals, error)) {
-            print("--signals: " + error);
-            return ExitStatus::BadUsage;
-        }
+        if (!signalsWriter_->open(options_.outputs.signals, error)) return refuse("--signals");
         io_.addListener(-1, [this](SignalId id, double, double value) {
             signalsWriter_->change(scheduler_.now(), io_.config(id).name, value);
         });
     }
     if (!options_.outputs.errors.empty()) {
         errorsWriter_ = std::make_unique<ErrorsWriter>();
-        if (!errorsWriter_->open(options_.outputs.errors, error)) {
-            print("--errors: " + error);
-            return ExitStatus::BadUsage;
-        }
+        if (!errorsWriter_->open(options_.outputs.errors, error)) return refuse("--errors");
         scheduler_.setErrorObserver([this](const Task& task, int number) {
             errorsWriter_->raised(scheduler_.now(), task.name(), task.place(), number,
                                   log_.errorName(number));
         });
     }
-    if (!options_.outputs.events.empty() && !log_.openJson(options_.outputs.events, error)) {
-        print("--events: " + error);
-        return ExitStatus::BadUsage;
-    }
+    if (!options_.outputs.events.empty() && !log_.openJson(options_.outputs.events, error))
+        return refuse("--events");
     if (!RunReports::areWanted(options_)) return ExitStatus::Ended;
     reports_ = std::make_unique<RunReports>(options_);
     if (error = reports_->prepare(*this, *program_); !error.empty()) {
@@ -340,7 +327,7 @@ ExitStatus Controller::openState() {
     return ExitStatus::BadUsage;
 }
 
-/// A name in the stimulus that the configuration lacks; empty when all is well.
+/// A name in the stimulus that the configuration lacks; empty when there is none.
 static std::string problemOf(Controller& controller, const StimulusItem& item) {
     const IoSystem& io = controller.io();
     switch (item.kind) {

@@ -3,6 +3,7 @@
 #include "config/letter_case.h"
 #include "runtime/base/text_util.h"
 #include "runtime/host/controller.h"
+#include "runtime/robot/lengths.h"
 #include "runtime/sim/surroundings.h"
 
 #include <fmt/format.h>
@@ -15,9 +16,7 @@ namespace rt {
 
 namespace {
 
-constexpr double kMmPerMetre = 1000;
-
-/// A length or another number of ConveyorSettings, and how options and PROC.cfg call it. There lengths are in m.
+/// A length or a different number of ConveyorSettings, and how options and PROC.cfg call it. There lengths are in m.
 struct Parameter {
     const char* key;
     double ConveyorSettings::* value;
@@ -35,18 +34,22 @@ const std::vector<Parameter>& parameters() {
         {"speed", &S::speed, 1, kAny, {}},
         {"acceleration", &S::acceleration, 1, kAboveZero, {}},
         {"every", &S::every, 1, 0, {}},
-        {"sync", &S::sync, kMmPerMetre, 0, {"queuetrckdist", "queuetrackdist", "queuetrackingdistance"}},
-        {"window", &S::window, kMmPerMetre, kAboveZero, {"startwinwidth", "startwindowwidth"}},
-        {"min", &S::minimum, kMmPerMetre, kAny, {"mindist", "minimumdistance", "mindistance"}},
-        {"max", &S::maximum, kMmPerMetre, kAboveZero, {"maxdist", "maximumdistance", "maxdistance"}},
-        {"separation", &S::separation, kMmPerMetre, 0, {"syncseparation", "syncsep"}},
+        {"sync",
+         &S::sync,
+         robot::kMmPerMetre,
+         0,
+         {"queuetrckdist", "queuetrackdist", "queuetrackingdistance"}},
+        {"window", &S::window, robot::kMmPerMetre, kAboveZero, {"startwinwidth", "startwindowwidth"}},
+        {"min", &S::minimum, robot::kMmPerMetre, kAny, {"mindist", "minimumdistance", "mindistance"}},
+        {"max", &S::maximum, robot::kMmPerMetre, kAboveZero, {"maxdist", "maximumdistance", "maxdistance"}},
+        {"separation", &S::separation, robot::kMmPerMetre, 0, {"syncseparation", "syncsep"}},
         {"adjustment", &S::adjustmentSpeed, 1, kAboveZero, {"adjustmentspeed", "adjspeed"}},
         {"adjustment_acceleration",
          &S::adjustmentAcceleration,
          1,
          kAboveZero,
          {"adjustmentaccel", "adjustmentacceleration", "adjaccel"}},
-        {"index", &S::index, kMmPerMetre, kAboveZero, {"indexdistance"}},
+        {"index", &S::index, robot::kMmPerMetre, kAboveZero, {"indexdistance"}},
         {"index_speed", &S::indexSpeed, 1, kAboveZero, {"indexspeed"}},
         {"counts", &S::countsPerMetre, 1, kAboveZero, {"countspermeter", "countspermetre"}},
     };

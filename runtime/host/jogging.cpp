@@ -9,8 +9,8 @@ namespace rt {
 
 namespace {
 
-constexpr Time kPeriod = 4 * kMillisecond;
-constexpr double kSeconds = 0.004;
+constexpr Time kPeriod = motion::kModifierPeriod;
+constexpr double kSeconds = static_cast<double>(kPeriod) / 1e9;
 constexpr double kRampTime = 0.25; // s from rest to a share of 1
 constexpr double kRamp = 1 / kRampTime;
 
@@ -154,13 +154,13 @@ void Jogging::finish() {
 }
 
 /// The share of full speed that the next period begins with.
-double Jogging::speedWanted(double dt) const {
+double Jogging::speedRequested(double dt) const {
     if (isStopping_ || next_ || scheduler_.now() >= until_) return 0;
     return std::min(1.0, std::sqrt(2 * kRamp * std::max(0.0, remaining_ - share_ * dt)));
 }
 
 void Jogging::step() {
-    double wanted = speedWanted(kSeconds);
+    double wanted = speedRequested(kSeconds);
     const double braking = share_ * share_ / (2 * kRamp) + 2 * share_ * kSeconds;
     if (wanted > 0 && share_ > 0 && !after(braking)) wanted = 0; // a limit comes nearer
     const double before = share_;

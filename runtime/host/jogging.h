@@ -39,7 +39,7 @@ JogOrder jogOrderTo(const motion::JointTarget& from, const motion::JointTarget& 
 
 /// Speeds of jogging at a share of 1.
 struct JogSpeeds {
-    static constexpr double kLine = 250;       ///< mm/s of the TCP, also while axes are jogged
+    static constexpr double kLine = 250;       ///< mm/s of the TCP, even while axes are jogged
     static constexpr double kTurn = 40;        ///< deg/s
     static constexpr double kJointShare = 0.2; ///< of the highest speed of an axis,
     static constexpr double kMostJoint = 30;   ///< and deg/s
@@ -65,7 +65,7 @@ class Jogging {
     void begin();
     void finish();
     void step();
-    double speedWanted(double dt) const;
+    double speedRequested(double dt) const;
     /// The place of the arm after `seconds` of jogging at a share of 1. None: nowhere; `limit_` says why.
     std::optional<motion::JointTarget> after(double seconds);
     std::optional<motion::JointTarget> afterAxes(double seconds);

@@ -67,7 +67,7 @@ class MechanicalUnits {
     /// Activates or deactivates an external unit: its axes in `axes` (those of the group) get their last position, or leave it
     /// and become kNotConnected.
     void setActive(MechanicalUnit& unit, bool active, robot::ExternalAxes& axes);
-    /// A conveyor that the configuration does not define. False when a unit of another kind has the name.
+    /// A conveyor that the configuration does not define. False when a unit of a different kind has the name.
     bool addConveyor(const std::string& name);
     /// The active unit that uses a logical axis of this one, too: stations of a positioner that are never active together. Null
     /// when there is none.

@@ -13,6 +13,9 @@ namespace rt {
 
 class Controller;
 
+/// Bytes of the largest module file: the program memory of a controller takes some 20 MB of source.
+inline constexpr std::size_t kLargestModule = std::size_t{20} << 20;
+
 struct ModuleUnits {
     ModuleLoader* loader = nullptr; ///< null: none has been needed yet
     /// Bytes that the persistents of a unit had when it was loaded.

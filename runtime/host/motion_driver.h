@@ -81,9 +81,9 @@ class MotionDriver final : public SteppedArm {
     /// SyncMoveOn: from now on movements are ordered for all robots of the group. Null: this robot moves for itself.
     void joinGroup(std::shared_ptr<SynchronisedGroup> synchronised);
     void leaveGroup();
-    /// Null when this robot moves for itself, also while SyncMoveSuspend or a path level of its own lets it.
+    /// Null when this robot moves for itself, even while SyncMoveSuspend or a path level of its own lets it.
     const std::shared_ptr<SynchronisedGroup>& synchronised() const;
-    /// The group of SyncMoveOn, also while this robot moves for itself.
+    /// The group of SyncMoveOn, even while this robot moves for itself.
     const std::shared_ptr<SynchronisedGroup>& joinedGroup() const { return synchronised_; }
     /// SyncMoveSuspend, SyncMoveResume.
     void suspendGroup(bool suspended);

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 template <std::size_t N> std::array<double, N> numbersFrom(const Json& json) {
     const auto numbers = json.get<std::vector<double>>();
-    if (numbers.size() != N) throw std::invalid_argument("another number of numbers");
+    if (numbers.size() != N) throw std::invalid_argument("a different number of values");
     std::array<double, N> result{};
     std::copy(numbers.begin(), numbers.end(), result.begin());
     return result;

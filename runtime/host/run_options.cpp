@@ -54,49 +54,49 @@ void addMaxTime(const Command& command, RunOptions& options) {
         options.hasMaxTime = true;
         return {};
     };
-    command.addChecked("--max-time", take, "end the run at this virtual time (exit status 4)")
+    command.addChecked("--max-time", take, "End the run at this virtual time (exit status 4)")
         .typeName("SECONDS");
 }
 
 /// The disks and devices of the controller.
 void addDisks(const Command& command, RunOptions& options) {
     command
-        .add("--home", options.home, "the controller's HOME:; default: an empty folder, removed at the end")
+        .add("--home", options.home, "The controller's HOME:; default: an empty folder, removed at the end")
         .typeName("DIR");
     command
         .add("--volume", options.volumes,
-             "a further disk of the controller, such as USB1=DIR; TEMP, RAMDISK, BACKUP and DATA are empty "
+             "A further disk of the controller, such as USB1=DIR; TEMP, RAMDISK, BACKUP and DATA are empty "
              "folders "
              "otherwise, removed at the end; repeatable")
         .typeName("NAME=DIR")
         .oneValueEach();
     command
         .add("--device", options.devices,
-             "a serial channel or printer, such as com1=HOME:/in.txt,HOME:/out.txt: it is read from the "
+             "A serial channel or printer, such as com1=HOME:/in.txt,HOME:/out.txt: it is read from the "
              "first file (or "
              "FIFO) of a volume and written to the second, or both the same; repeatable")
         .typeName("NAME=FILE[,FILE]")
         .oneValueEach();
     command
         .add("--camera", options.cameras,
-             "a camera of Integrated Vision and the JSON file of its results; repeatable")
+             "A camera of Integrated Vision and the JSON file of its results; repeatable")
         .typeName("NAME=FILE.json")
         .oneValueEach();
 }
 
 void addNetwork(const Command& command, net::NetworkOptions& options) {
     command.addFlag("--offline", options.offline,
-                    "sockets connect tasks of this controller only, without this computer's network");
+                    "Sockets connect tasks of this controller only, without this computer's network");
     command
         .addOptional(
             "--listen", "any", [&options](const std::string& text) { return takeListen(options, text); },
-            "let other computers connect to sockets of the program: at the address that it names, or at this "
+            "Let other computers connect to sockets of the program: at the address that it names, or at this "
             "one; default: this computer only")
         .typeName("[=ADDRESS]");
     command
         .addOptional(
             "--connect", "any", [&options](const std::string& text) { return takeConnect(options, text); },
-            "let the program connect to other computers: to any, to this one, or to OTHER where it names "
+            "Let the program connect to other computers: to any, to this one, or to OTHER where it names "
             "ADDRESS; repeatable")
         .typeName("[=ADDRESS[=OTHER]]");
 }
@@ -117,7 +117,7 @@ void addTick(const Command& command, RunOptions& options) {
     command
         .addChecked(
             "--tick", take,
-            "period of motion in ms: samples of trace and report, outputs of TriggSpeed; default 4, real "
+            "Period of motion in ms: samples of trace and report, outputs of TriggSpeed; default 4, real "
             "controllers 4.032")
         .typeName("MS");
 }
@@ -125,13 +125,13 @@ void addTick(const Command& command, RunOptions& options) {
 void addRobots(const Command& command, RunOptions& options) {
     command
         .add("--robot", options.robots,
-             fmt::format("robot model, of a further robot UNIT=MODEL; repeatable; default \"{}\"",
+             fmt::format("Robot model, of a further robot UNIT=MODEL; repeatable; default \"{}\"",
                          kDefaultRobot))
         .typeName("[UNIT=]MODEL")
         .oneValueEach();
     command
         .add("--conveyor", options.conveyors,
-             "a simulated conveyor, such as CNV1=speed:200,every:400: mm/s, and an object each 400 mm; keys: "
+             "A simulated conveyor, such as CNV1=speed:200,every:400: mm/s, and an object each 400 mm; keys: "
              "speed, "
              "acceleration, every, sync, window, min, max, separation, adjustment, adjustment_acceleration, "
              "at, turn, "
@@ -140,22 +140,50 @@ void addRobots(const Command& command, RunOptions& options) {
         .oneValueEach();
     command
         .add("--planner", options.planner,
-             "how movements are timed: measured (as real controllers; default) or optimal (shortest time "
-             "within all limits, also of jerk)")
+             "How movements are timed: measured (as real controllers; default) or optimal (shortest time "
+             "within all limits, including jerk)")
         .oneOf({"measured", "optimal"});
     addTick(command, options);
+}
+
+void addOutputs(const Command& command, RunOutputs& outputs) {
+    command.add("--trace", outputs.trace, "Write the robot's motion, one sample every 4 ms (--tick)")
+        .typeName("FILE.csv");
+    command.addFlag(
+        "--motors", outputs.motors,
+        "With --trace: add the positions of the motors (m1 to m6), which recordings of real robots show");
+    command.add("--signals", outputs.signals, "Write every change of a signal").typeName("FILE.csv");
+    command.add("--events", outputs.events, "Write the event log, one JSON object per line")
+        .typeName("FILE.jsonl");
+    command
+        .add("--errors", outputs.errors, "Write every error that is raised and where, including handled ones")
+        .typeName("FILE.csv");
+    command
+        .add("--report", outputs.report,
+             "Write a page with the path in 3D, speeds, signals, events and a table of movements")
+        .typeName("FILE.html");
+    command
+        .add("--compare", outputs.compare,
+             "Compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
+             "distance, where they come from")
+        .typeName("FILE.csv");
+    command.add("--picture", outputs.picture, "Draw the path of the TCP with zones, points and signals")
+        .typeName("FILE.svg");
+    command.addFlag("--summary", outputs.summary,
+                    "Print cycle time, what slowed each movement, and the paths of the files");
 }
 
 } // namespace
 
 void addRunOptions(const Command& command, RunOptions& options, bool withTasks) {
-    addWhole(command, "--cycles", options.cycles, 1e12, "how often main is run; 0 = for ever; default 1");
+    addWhole(command, "--cycles", options.cycles, 1e12,
+             "Number of times main is executed, 0: forever; default 1");
     if (withTasks) {
         command
-            .add(
-                "--task", options.tasks,
-                "add a task running the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its type; "
-                "repeatable, also to add inputs to a task")
+            .add("--task", options.tasks,
+                 "Add a task that executes the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give "
+                 "its type; "
+                 "repeatable; also adds inputs to a task")
             .typeName("NAME[:TYPE]=INPUT[,INPUT]")
             .oneValueEach();
     }
@@ -168,50 +196,25 @@ void addRunOptions(const Command& command, RunOptions& options, bool withTasks) 
     addDisks(command, options);
     command
         .add("--stimulus", options.stimulus,
-             "events from outside: lines time_s,target,value; a file, a pipe, or - for the "
+             "Events from outside: lines time_s,target,value; a file, a pipe, or - for the "
              "standard input")
         .typeName("FILE.csv");
-    command.add("--trace", options.outputs.trace, "write the robot's motion, a sample each 4 ms (--tick)")
-        .typeName("FILE.csv");
-    command.addFlag(
-        "--motors", options.outputs.motors,
-        "with --trace: add the positions of the motors (m1 to m6), which recordings of real robots show");
-    command.add("--signals", options.outputs.signals, "write every change of a signal").typeName("FILE.csv");
-    command.add("--events", options.outputs.events, "write the event log, an object a line")
-        .typeName("FILE.jsonl");
-    command
-        .add("--errors", options.outputs.errors,
-             "write every error that is raised and where, also those that handlers take")
-        .typeName("FILE.csv");
-    command
-        .add("--report", options.outputs.report,
-             "write a page with the path in 3D, speeds, signals, events and a table of movements")
-        .typeName("FILE.html");
-    command
-        .add("--compare", options.outputs.compare,
-             "compare with a trace or a recording (columns time_s and j1..j6 or x,y,z): time error, path "
-             "distance, where they come from")
-        .typeName("FILE.csv");
-    command
-        .add("--picture", options.outputs.picture, "draw the path of the TCP with zones, points and signals")
-        .typeName("FILE.svg");
-    command.addFlag("--summary", options.outputs.summary,
-                    "print cycle time, what slowed each movement, and the paths of the files");
+    addOutputs(command, options.outputs);
     command
         .add("--state", options.state,
-             "folder that keeps the controller's state from run to run: data, events, the robot's "
+             "Folder that keeps the controller's state from run to run: data, events, the robot's "
              "position, and where "
              "a program that was interrupted continues")
         .typeName("DIR");
     command.addFlag("--pp-to-main", options.ppToMain,
-                    "with --state: the program begins at main nevertheless");
+                    "With --state: begin at main, not where the program was interrupted");
     command.addFlag(
         "--save", options.save,
-        "write the values of persistents back into the source files at the end, and let Save do so");
+        "Write the values of persistents back into the source files at the end, and let Save do so");
     addNetwork(command, options.network);
-    command.addFlag("--realtime", options.realtime, "pace virtual time to the wall clock");
+    command.addFlag("--realtime", options.realtime, "Pace virtual time to the wall clock");
     addMaxTime(command, options);
-    addWhole(command, "--seed", options.seed, UINT32_MAX, "start value of Rand; default 1");
+    addWhole(command, "--seed", options.seed, UINT32_MAX, "Start value of Rand; default 1");
     addRate(command, options);
 }
 

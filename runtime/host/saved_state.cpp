@@ -107,7 +107,7 @@ void SavedState::remember() {
         data_.add(data, keyOf(data));
         if (data.kind != kGlobalVariable && data.kind != kGlobalPersistent) continue;
         if (!known.try_emplace(data.address, true).second) continue;
-        // Variables of handles begin without an object. Objects without a keeper are made anew.
+        // Variables of handles begin without an object. Objects without a keeper are made again.
         if (!valueToSource(data.address, *data.type, initial) &&
             !valueToImage(data.address, *data.type, 1, controller_.service<StateKeepers>(), initial))
             continue;
@@ -356,7 +356,7 @@ void SavedState::restorePaths(StateImage& image) {
     }
 }
 
-/// All of them, or none: a task that begins anew ends the synchronised movement, as when its program pointer is moved.
+/// All of them, or none: a task that begins again ends the synchronised movement, as when its program pointer is moved.
 void SavedState::restoreTogether(const StateImage& image, const std::vector<std::string>& names) {
     std::vector<SynchronisedGroup::Member> members;
     std::vector<MotionDriver::EarlierPath> paths;

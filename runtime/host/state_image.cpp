@@ -182,7 +182,7 @@ std::string readImage(const std::string& text, StateImage& image, const robot::U
     try {
         image = imageFrom(json, units);
     } catch (const std::exception&) {
-        return "a part of it is missing or has another form";
+        return "a part of it is missing or has a different form";
     }
     return {};
 }

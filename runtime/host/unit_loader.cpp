@@ -99,7 +99,7 @@ LoadResult UnitLoader::compile(const std::string& key, const LoadRequest& reques
     return result;
 }
 
-/// The same module beside the same others: its data begin anew.
+/// The same module beside the same others: its data begin again.
 LoadResult UnitLoader::reuse(Unit& unit, const LoadRequest& request, const ProgramTables& present) {
     LoadResult result;
     result.module = unit.module;
@@ -116,7 +116,7 @@ LoadResult UnitLoader::reuse(Unit& unit, const LoadRequest& request, const Progr
     return result;
 }
 
-/// A native, or what LLVM's code generator calls on its own account: memcpy, fmodf and the like.
+/// A native, or what LLVM's code generator calls by itself: memcpy, fmodf and the like.
 const void* UnitLoader::nativeAddress(const std::string& symbol) const {
     const void* address = findNative_(symbol);
     return address != nullptr ? address : ::dlsym(RTLD_DEFAULT, symbol.c_str());

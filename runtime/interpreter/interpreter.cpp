@@ -246,7 +246,7 @@ class Activation {
     uint8_t marks_ = 0; ///< StatementMark, of the statement that was noted last
 };
 
-// Stays one function: `alloca` gives memory until it returns, which is why run() calls nothing else.
+// Size: one function, because `alloca` gives memory until it returns; so run() calls nothing else.
 Status Activation::run() {
     begin();
     const uint32_t* at = code_.words;

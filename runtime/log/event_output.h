@@ -12,7 +12,7 @@ namespace rt {
 
 /// Passes events on in order of time. An event that repeats one of the latest different ones is counted instead; the count
 /// is passed on, as an event with the time of the last repetition, when another event comes or at the end. Events of the
-/// operator and of the system (domains 1 and 2) are never counted: what follows one is written anew.
+/// operator and of the system (domains 1 and 2) are never counted: what follows one is written again.
 class RepeatFilter {
   public:
     explicit RepeatFilter(std::function<void(const Event&)> put) : put_(std::move(put)) {}

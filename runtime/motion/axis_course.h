@@ -34,7 +34,7 @@ class AxisCourse {
     /// ... or at a speed for ever; 0: it comes to rest.
     AxisCourse turning(double time, double speed, double acceleration, double jerk = 0) const;
 
-    /// Also for times shortly before the last change; before the beginning it is as it begins.
+    /// Even for times shortly before the last change; before the beginning it is as it begins.
     AxisMoment at(double time) const;
     /// From this time on the speed remains as it is then.
     double settledAt() const { return pieces_.back().start; }

@@ -29,7 +29,7 @@ using MoveId = int64_t;
 enum class MoveStatus : uint8_t {
     Unknown, ///< never ordered
     Queued,  ///< waiting for its turn
-    Moving,  ///< on its path (also while stopped there)
+    Moving,  ///< on its path (even while stopped there)
     Done,    ///< its point has been reached
     Cleared, ///< thrown away by clear()
 };

@@ -97,7 +97,7 @@ struct PathTrigger {
     bool fromStart = false; ///< measured from the start of the move instead of its end
     bool inTime = false; ///< `amount` is seconds before the end (after the start) instead of mm of TCP path
     double amount = 0;
-    double lag = 0; ///< EquipLag, s: positive fires earlier, also while the move before is still running
+    double lag = 0; ///< EquipLag, s: positive fires earlier, even while the move before is still running
     bool nextMove = false; ///< on the move that follows, `amount` mm after its start
     friend auto operator<=>(const PathTrigger&, const PathTrigger&) = default;
 };

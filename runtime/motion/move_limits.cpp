@@ -50,12 +50,11 @@ MoveLimits limitsOf(const MoveCommand& command, const robot::RobotModel& model,
     limits.jointSpeed = model.maxSpeed;
     const bool isTimed = command.duration > 0; // the time replaces the programmed speeds
     const double share = 0.01 * std::clamp(set.velocityPercent, 0.01, 100.0);
-    // A speed of 0 would never arrive; controllers take it as the slowest they can do.
     const auto programmed = [&](double speed) {
-        return isTimed ? kUnlimited : share * std::max(speed, 0.01);
+        return isTimed ? kUnlimited : share * std::max(speed, kLowestSpeed);
     };
-    limits.tcpSpeed =
-        std::min(programmed(command.speed.vTcp), isTimed ? kUnlimited : std::max(set.maxTcpSpeed, 0.01));
+    limits.tcpSpeed = std::min(programmed(command.speed.vTcp),
+                               isTimed ? kUnlimited : std::max(set.maxTcpSpeed, kLowestSpeed));
     limits.orientationSpeed = programmed(command.speed.vOri);
     limits.armAngleSpeed = programmed(command.speed.vReax);
     for (std::size_t i = 0; i < limits.externalSpeed.size(); ++i) {

@@ -18,6 +18,9 @@ struct ExternalAxisModel {
 };
 using ExternalAxisModels = std::array<ExternalAxisModel, kExternalCount>;
 
+/// A programmed speed of 0 is executed at the lowest speed of the controller: mm/s, deg/s.
+inline constexpr double kLowestSpeed = 0.01;
+
 struct MoveLimits {
     double tcpSpeed = 0;
     double orientationSpeed = 0;

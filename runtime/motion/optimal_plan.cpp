@@ -14,7 +14,7 @@ constexpr double kTick = 0.001;   // s, at which the result is checked
 constexpr double kAllowed = 0.9985;
 constexpr double kAllowedJerk = 0.99;
 constexpr double kKeptLead =
-    0.25; // s before the arm would brake, from which on a longer path is planned anew
+    0.25; // s before the arm would brake, from which on a longer path is planned again
 
 /// Writes what was found into the course, from the place `begin` on.
 void takeProfile(Course& course, double begin, const ProfileGrid& grid, const ProfileSolver::Result& found) {
@@ -285,7 +285,7 @@ void OptimalPlan::slowTo(Course& course, double begin, double seconds) {
     const double factor = seconds / (course.plannedEnd() - begin);
     if (!(factor > 1)) return;
     const double fastest = course.slowBy(factor);
-    // Also when the rest is planned anew.
+    // Also when the rest is planned again.
     for (ProfileCell& cell : cells_)
         cell.mostSquare = std::min(cell.mostSquare, fastest * fastest);
 }

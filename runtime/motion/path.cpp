@@ -107,7 +107,7 @@ Expected<MotionPath, MotionError> MotionPath::make(const robot::Kinematics& kine
     const bool isOfOther =
         command.kind == MoveKind::AbsJoint && command.joints.robax.size() != start.robax.size();
     if (isOfOther) {
-        return Unexpected{badArgument("a posture of an arm with another number of axes",
+        return Unexpected{badArgument("a posture of an arm with a different number of axes",
                                       static_cast<double>(command.joints.robax.size()))};
     }
     MotionPath path;

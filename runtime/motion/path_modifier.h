@@ -31,7 +31,7 @@ struct PathPlace;
 
 using TimeNs = int64_t;
 
-/// Period in which displacements advance: that of the trace.
+/// Period of the controller while it moves the arm: displacements, jogging, guidance and supervision advance with it.
 inline constexpr TimeNs kModifierPeriod = 4'000'000;
 
 /// The data of a modifier for a movement that it displaces; each kind of modifier has its own.

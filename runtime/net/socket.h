@@ -51,10 +51,10 @@ class Socket {
     /// For a task that waits to receive or accept / to send, to be connected.
     std::optional<OutsideWait> outside(bool toSend) const;
 
-    /// The program has waited for something from outside in vain and may do so again: virtual time keeps step with the wall
-    /// until the socket is closed, also between the attempts.
+    /// The program has waited for something from outside in vain and may do so again: virtual time keeps pace with the wall clock
+    /// until the socket is closed, even between the attempts.
     void expectOutside();
-    /// Nothing is expected from outside until something is sent or comes again: virtual time need not keep step with the wall.
+    /// Nothing is expected from outside until something is sent or comes again: virtual time need not keep pace with the wall clock.
     void rest();
 
     // ---- Operations ---------------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
 #include "runtime/report/analysis.h"
 
+#include "runtime/robot/angles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,7 +10,6 @@
 namespace rt::report {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kPeak = 0.97;   // of the largest speed: the ramps of a movement end there
 constexpr double kAtRest = 0.05; // of the largest speed
 
@@ -243,7 +244,7 @@ double turnBetween(const motion::Quat& a, const motion::Quat& b) {
     const motion::Quat difference = conjugate(a) * b;
     const double sine =
         std::sqrt(difference.x * difference.x + difference.y * difference.y + difference.z * difference.z);
-    return 2 * std::atan2(sine, std::fabs(difference.w)) * kDegrees;
+    return 2 * std::atan2(sine, std::fabs(difference.w)) * robot::kDegreesPerRadian;
 }
 
 bool hasMoved(const Sample& before, const Sample& after) {

@@ -27,7 +27,7 @@ struct PathPoint {
 };
 
 struct Comparison {
-    std::string problem;        ///< why nothing can be compared; empty: all is well
+    std::string problem;        ///< why nothing can be compared; empty: nothing
     bool atFlange = false;      ///< the recording has axis angles only, so both are compared at the flange
     double here = 0, there = 0; ///< s from 1 mm after the start pose to 1 mm before the end pose
     double median = 0, most = 0, worst = 0; ///< path distance, mm: half, 95 % and all of the path are nearer

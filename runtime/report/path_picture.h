@@ -8,7 +8,7 @@
 
 namespace rt::report {
 
-/// The SVG, also of a run that has not begun yet.
+/// The SVG, even of a run that has not begun yet.
 std::string pathPicture(const RunRecord& record);
 
 } // namespace rt::report

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "runtime/base/text_util.h"
+#include "runtime/robot/angles.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +12,6 @@
 
 namespace rt::report {
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// The meaning of a column: its place in the list below, and what makes s, deg, mm of its numbers.
 enum ColumnKind { kTime, kJoint1, kX = kJoint1 + 6, kUnit = kX + 3, kColumnKinds };
@@ -59,7 +58,7 @@ Column columnOf(std::string_view text) {
     const std::string_view stem = std::string_view(header.name).substr(0, header.name.size() - 1);
     if (last >= '1' && last <= '6' &&
         isOneOf(stem, {"j", "joint", "axis", "a", "rax", "robax", "jointangle"}))
-        return {kJoint1 + (last - '1'), header.unit == "rad" ? kDegrees : 1};
+        return {kJoint1 + (last - '1'), header.unit == "rad" ? robot::kDegreesPerRadian : 1};
     if (last >= 'x' && last <= 'z' && isOneOf(stem, {"", "tcp", "pos", "tcppos", "position", "trans"}))
         return {kX + (last - 'x'), header.unit == "m" ? 1000.0 : 1};
     return {};

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/report/move_text.h"
+#include "runtime/robot/lengths.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -54,7 +55,6 @@ void RunRecorder::sample(RobotRecord& robot, Time time, const motion::MotionStat
 void RunRecorder::ordered(RobotRecord& robot, const MoveOrder& order) {
     const motion::MoveCommand& command = order.command;
     const motion::MotionSettings& settings = command.settings;
-    constexpr double kMillimetres = 1000;
     Move move;
     move.number = order.number;
     move.kind = command.kind;
@@ -71,8 +71,8 @@ void RunRecorder::ordered(RobotRecord& robot, const MoveOrder& order) {
     move.stopPoint = command.zone.finep;
     move.zone = command.zone.pzoneTcp;
     move.acceleration = std::clamp(settings.accelerationPercent, 20.0, 100.0) / 100;
-    move.pathAcceleration = settings.pathAcceleration * kMillimetres;
-    move.pathDeceleration = settings.pathDeceleration * kMillimetres;
+    move.pathAcceleration = settings.pathAcceleration * robot::kMmPerMetre;
+    move.pathDeceleration = settings.pathDeceleration * robot::kMmPerMetre;
     if (!robot.moves.empty() && robot.moves.back().number == move.number)
         robot.moves.back() = std::move(move);
     else

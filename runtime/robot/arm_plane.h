@@ -61,7 +61,7 @@ struct ArmPlane {
     }
 
     /// If the point lies on axis 1, that axis is at `axis1Deg`. False when the point is too near to axis 1 for
-    /// the sideways offset, also for figures that are not numbers.
+    /// the sideways offset, even for figures that are not numbers.
     bool aim(const Vec3& point, double axis1Deg, ArmTarget& target) const {
         target.x = point.x;
         target.y = point.y;

@@ -95,7 +95,7 @@ inline constexpr double kSeedArmAngle = std::numeric_limits<double>::quiet_NaN()
 class Mechanism;
 
 /// Kinematics of one model. A value, cheap to copy; thread-safe; no allocation in any call, no exception. Figures that
-/// are not numbers and joints of another number of axes give "unreachable" or a pose of no meaning, never a crash.
+/// are not numbers and joints of a different number of axes give "unreachable" or a pose of no meaning, never a crash.
 /// `armAngleDeg` counts only for seven axes: eax_a of the robtarget.
 class Kinematics {
   public:

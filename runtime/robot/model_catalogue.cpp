@@ -1,6 +1,7 @@
 // Finds robot models by the many ways people and controllers spell them.
 
 #include "runtime/robot/embedded_models.h"
+#include "runtime/robot/lengths.h"
 #include "runtime/robot/robot_model.h"
 
 #include <fmt/format.h>
@@ -257,7 +258,6 @@ struct Figures {
 };
 
 Figures figuresOf(std::string_view name, const NameParts& parts) {
-    constexpr double kMillimetres = 1000; // a reach from here on is in mm
     std::vector<double> figures;
     for (const std::string& detail : parts.details) {
         double figure = 0;
@@ -267,7 +267,8 @@ Figures figuresOf(std::string_view name, const NameParts& parts) {
     }
     figures.resize(2);
     if (name.starts_with("ROB")) std::swap(figures[0], figures[1]);
-    return {figures[0], figures[1] >= kMillimetres ? figures[1] / 1000 : figures[1]};
+    const bool isInMm = figures[1] >= kMmPerMetre; // no arm reaches a kilometre
+    return {figures[0], isInMm ? figures[1] / kMmPerMetre : figures[1]};
 }
 
 /// How different two robots are. The reach decides more than the payload: targets have to be reached.

@@ -33,8 +33,8 @@ bool inErrorHandler(const Frame& frame) {
     return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
 }
 
-UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber) {
-    UnaskedHandlers result;
+BypassedHandlers bypassedHandlers(const Frame* stoppedAt, int errorNumber) {
+    BypassedHandlers result;
     const auto covered = [](const Frame& frame) {
         return !inUndoHandler(frame) && (!frame.routine->hasErrorHandler || coversStatement(frame));
     };
@@ -46,8 +46,8 @@ UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber) {
             result.callers.push_back(frame);
         else if (result.callers.empty())
             result.between.push_back(frame);
-        if (result.callers.size() > UnaskedHandlers::kMost ||
-            result.between.size() > UnaskedHandlers::kMostBetween)
+        if (result.callers.size() > BypassedHandlers::kMost ||
+            result.between.size() > BypassedHandlers::kMostBetween)
             break;
     }
     return result;

@@ -113,14 +113,14 @@ inline ErrorRoute routeFromCall(Frame* at, int errorNumber) {
 }
 
 /// For the event of an error that nothing takes.
-struct UnaskedHandlers {
+struct BypassedHandlers {
     static constexpr std::size_t kMost = 3, kMostBetween = 8;
     std::vector<const Frame*> between; ///< from the routine without a fitting handler on, innermost first
     std::vector<const Frame*>
         callers; ///< with a handler that would take the error; more than kMost: there are others
 };
 /// `stoppedAt`: the routine whose lack of a handler ended the search. Empty where no RAISE would help: in handlers, in traps.
-UnaskedHandlers unaskedHandlers(const Frame* stoppedAt, int errorNumber);
+BypassedHandlers bypassedHandlers(const Frame* stoppedAt, int errorNumber);
 /// RaiseToUser: the innermost routine in progress that is not NOSTEPIN, when its handler takes errors there.
 Frame* userLevelHandler(Frame* at, int errorNumber);
 SourcePlace placeOf(const RoutineDesc& routine, int32_t statement);

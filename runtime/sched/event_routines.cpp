@@ -53,7 +53,7 @@ bool EventRoutines::concerns(SystemEvent event) const {
     return running_ == event || std::find(owed_.begin(), owed_.end(), event) != owed_.end();
 }
 
-Status EventRoutines::runOwed() {
+Status EventRoutines::runPending() {
     while (owed() && !task_.isUnwinding()) {
         const SystemEvent event = owed_.front();
         owed_.pop_front();

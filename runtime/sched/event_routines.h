@@ -40,7 +40,7 @@ class EventRoutines {
 
     explicit EventRoutines(Task& task) : task_(task) {}
 
-    /// Calls `visit` on the fibre of the task as soon as it can, also while the task is stopped. What was interrupted does not
+    /// Calls `visit` on the fibre of the task as soon as it can, even while the task is stopped. What was interrupted does not
     /// see it. One at a time.
     void order(Visit visit);
     /// A visit is ordered or in progress.
@@ -60,7 +60,7 @@ class EventRoutines {
     /// Its routines are to run or run now.
     bool concerns(SystemEvent event) const;
     /// Runs them on the present fibre. Negative: the task is being unwound.
-    Status runOwed();
+    Status runPending();
 
     /// EventType: of the routine in progress.
     SystemEvent running() const { return running_; }

@@ -1,6 +1,6 @@
 #pragma once
 // Inbox: how other threads reach the thread of the scheduler. They post commands, which are executed one after the other
-// between the tasks, also while virtual time is halted; nothing else of the controller may be touched from another thread.
+// between the tasks, even while virtual time is halted; nothing else of the controller may be touched from another thread.
 
 #include <atomic>
 #include <deque>

@@ -286,7 +286,7 @@ void Scheduler::removeExternal(ExternalWait& wait) {
     externals_.erase(std::remove(externals_.begin(), externals_.end(), &wait), externals_.end());
 }
 
-/// Moves on to `time`; in step with the wall when that is asked for or a task waits for something outside.
+/// Moves on to `time`; in pace with the wall clock when that is asked for or a task waits for something outside.
 void Scheduler::jumpTo(Time time) {
     if (paced())
         sleepOutside(time);

@@ -26,7 +26,7 @@ inline constexpr int64_t kUnlimitedRate = 1'000'000;
 struct SchedulerOptions {
     int64_t rate = kDefaultRate;       ///< instructions per ms of virtual time; > 0
     Time maxTime = kNever;             ///< the run ends here
-    bool realtime = false;             ///< virtual time keeps step with the wall
+    bool realtime = false;             ///< virtual time keeps pace with the wall clock
     std::size_t stackBytes = 8u << 20; ///< per task; pages are used as needed
 };
 
@@ -50,9 +50,9 @@ class Scheduler {
     /// Virtual time, instructions of the running task included.
     Time now() const;
     const SchedulerOptions& options() const { return options_; }
-    /// By how much the wall clock is past virtual time, which keeps step with it; 0 while it does not.
+    /// By how much the wall clock is past virtual time, which keeps pace with it; 0 while it does not.
     Time lateness() const { return paced() ? std::max<Time>(0, wallTime() - now_) * 100 / pacePercent_ : 0; }
-    /// Virtual time keeps step with the wall clock (or does not); `percent` of the wall's pace, > 0. At any time.
+    /// Virtual time keeps pace with the wall clock (or does not); `percent` of the pace of the wall clock, > 0. At any time.
     void setPace(bool paced, int percent = 100);
     /// The run does not end when nothing is pending: it waits for commands.
     void setResident(bool resident) { resident_ = resident; }
@@ -120,7 +120,7 @@ class Scheduler {
     };
     void addExternal(ExternalWait& wait);
     void removeExternal(ExternalWait& wait);
-    /// As long as something outside takes part (an open connection), virtual time keeps step with the wall also while no task
+    /// As long as something outside takes part (an open connection), virtual time keeps pace with the wall clock also while no task
     /// waits for it. Each hold is to be released.
     void holdPace();
     void releasePace() { --paceHolds_; }

@@ -64,7 +64,7 @@ void Task::fibreMain() {
 }
 
 /// The program pointer is at main and there is nothing to unwind.
-void Task::standAtMain() {
+void Task::setPointerToMain() {
     state_ = TaskState::Ready;
     scheduler_.makeReady(*this);
     scheduler_.switchOut(*this);
@@ -84,9 +84,9 @@ bool Task::runCycle() {
         frame = nullptr; // the record of the routine that did it is gone
         if (entryOverride_ == nullptr) host_.programReset(*this);
     }
-    if (status == kOk) status = events_.runOwed();
+    if (status == kOk) status = events_.runPending();
     if (status == kOk && isStopped()) {
-        standAtMain();
+        setPointerToMain();
         return true;
     }
     const EntryFunction entry = entryOverride_ != nullptr ? entryOverride_ : desc_.entry;
@@ -443,7 +443,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
 /// Halted until started again or unwound.
 Status Task::suspendStopped() {
     for (;;) {
-        if (const Status status = events_.runOwed(); status < 0) return status;
+        if (const Status status = events_.runPending(); status < 0) return status;
         if (!mustHalt()) return kOk;
         state_ = TaskState::Ready;
         scheduler_.makeReady(*this);

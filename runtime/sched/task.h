@@ -94,7 +94,7 @@ struct ErrorMemory {
     std::optional<Handled> handled;
 };
 
-/// Something outside the controller that a waiting task looks at. Virtual time keeps step with the wall meanwhile.
+/// Something outside the controller that a waiting task looks at. Virtual time keeps pace with the wall clock meanwhile.
 struct OutsideWait {
     int fd = -1;      ///< -1: only time keeps step
     short events = 0; ///< POLLIN, POLLOUT of poll(2)
@@ -129,7 +129,7 @@ class TaskHost {
     virtual void taskFailed(Task& task) = 0;
     /// The task executed Stop and is halted now.
     virtual void taskStopped(Task&) {}
-    /// The variables of the task have got their initial values because its program begins anew.
+    /// The variables of the task have got their initial values because its program begins again.
     virtual void programReset(Task&) {}
     /// Module data outside the program the task was made from (modules loaded later) get their initial values, too.
     virtual Status resetUnits(Task&) { return kOk; }
@@ -207,7 +207,7 @@ class Task : public TaskCore {
     Status sleepFor(Time span);
     Status waitFor(const WaitSpec& spec, WaitResult& result);
     /// Waits until the file descriptor is ready for `pollEvents` (POLLIN, POLLOUT of poll(2)). Virtual time
-    /// keeps step with the wall meanwhile. For sockets and the terminal only: files are ready at once.
+    /// keeps pace with the wall clock meanwhile. For sockets and the terminal only: files are ready at once.
     Status waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result);
     /// Lets other tasks run, delivers interrupts.
     Status yield();
@@ -256,7 +256,7 @@ class Task : public TaskCore {
     /// elsewhere, and when nothing takes it there, the system handler. Negative.
     Status breakOffToUser(int number);
     /// RaiseToUser \Continue: executes the error handler of that routine on top of the present one. 0: `decision` is to be
-    /// carried out by the present routine, RETRY or TRYNEXT. Negative as above, also when that handler leaves its routine.
+    /// carried out by the present routine, RETRY or TRYNEXT. Negative as above, even when that handler leaves its routine.
     Status continueAtUser(int number, HandlerDecision& decision);
     /// No clause of the error handler at work lists the error: the system handler. Negative; kAgain after a start.
     Status errorNotListed();
@@ -341,7 +341,7 @@ class Task : public TaskCore {
     bool canResume() const;
     /// Stopped with the program pointer at main: the next start is one from the beginning.
     bool startsAtMain() const { return stopCause_ == StopCause::AtMain && entryOverride_ == nullptr; }
-    /// The procedure that the task executes when it begins anew: main, or the procedure that the program pointer was moved to.
+    /// The procedure that the task executes when it begins again: main, or the procedure that the program pointer was moved to.
     EntryFunction nextEntry() const { return entryOverride_ != nullptr ? entryOverride_ : desc_.entry; }
     /// Program pointer to main: the chain is unwound with its UNDO handlers at once; afterwards AtMain.
     void moveToMain();
@@ -426,7 +426,7 @@ class Task : public TaskCore {
     void endReentry();
     bool runCycle();
     bool endCycle(Unwind how);
-    void standAtMain();
+    void setPointerToMain();
     void haltAtMain();
     Status block();
     void countAgain(Time& deadline, Time span, uint64_t& starts) const;

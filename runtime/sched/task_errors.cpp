@@ -33,12 +33,6 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
-/// The error handler of the frame's routine is in progress.
-bool isInHandlerOf(const Frame& frame) {
-    const StmtDesc* statement = statementOf(frame);
-    return statement != nullptr && statement->handled == 0;
-}
-
 /// The same for a record that may have been left.
 bool isInProgress(const Frame* from, const Frame* wanted) {
     int above = 0; // without one that lies below
@@ -71,14 +65,14 @@ std::vector<std::string> routineNames(const std::vector<const Frame*>& frames, s
 /// Which callers have a handler that was not asked (manual 1.12), and what would ask it; "" when there is none.
 std::string unaskedText(const Frame* from, int number) {
     const Frame* const stopped = callSeenByUser(from);
-    const UnaskedHandlers unasked = unaskedHandlers(stopped, number);
+    const BypassedHandlers unasked = bypassedHandlers(stopped, number);
     if (unasked.callers.empty() || unasked.between.empty()) return {};
     const char* const lack = stopped->routine->hasErrorHandler != 0
                                  ? "The error handler of {0} does not list this error"
                                  : "{0} has no error handler";
-    std::vector<std::string> callers = routineNames(unasked.callers, UnaskedHandlers::kMost);
-    if (unasked.callers.size() > UnaskedHandlers::kMost) callers.emplace_back("others");
-    const std::vector<std::string> between = routineNames(unasked.between, UnaskedHandlers::kMostBetween);
+    std::vector<std::string> callers = routineNames(unasked.callers, BypassedHandlers::kMost);
+    if (unasked.callers.size() > BypassedHandlers::kMost) callers.emplace_back("others");
+    const std::vector<std::string> between = routineNames(unasked.between, BypassedHandlers::kMostBetween);
     return fmt::format(fmt::runtime(std::string(lack) +
                                     ", so the error does not go to its callers: the error "
                                     "handler of {1} was not asked. \"ERROR RAISE;\" in "
@@ -417,7 +411,7 @@ Status Task::retryAt(Frame* handler) {
         count = 0; // started again
     }
     ++count;
-    // The frame record carries the id: a later invocation at the same address starts counting anew.
+    // The frame record carries the id: a later invocation at the same address starts counting again.
     entry->id = handler->reserved = ++lastRetryId_;
     host_.retried(*this);
     return kOk;
@@ -439,7 +433,7 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    return inProgress && handled.frame->routine == handled.routine && isInHandlerOf(*handled.frame);
+    return inProgress && handled.frame->routine == handled.routine && inErrorHandler(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
@@ -456,7 +450,7 @@ void Task::dropHandled(const Frame* outermost) {
 
 void Task::skipWarn() {
     const auto isOwn = [this](const HandledError& handled) {
-        return handled.frame == frame && handled.routine == frame->routine && isInHandlerOf(*frame);
+        return handled.frame == frame && handled.routine == frame->routine && inErrorHandler(*frame);
     };
     if (!handled_.empty() && isOwn(handled_.back())) return handled_.pop_back(); // as a rule
     flushHandledWarning();

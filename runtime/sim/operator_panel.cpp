@@ -76,7 +76,7 @@ bool OperatorPanel::canAnswer() const {
     return connected_ && (answeredByClients_ || !answers_.empty() || answersToCome_ > 0 || terminalUsable());
 }
 
-/// Keeps a dialog in the list of those that wait, also while its task is being unwound.
+/// Keeps a dialog in the list of those that wait, even while its task is being unwound.
 class OperatorPanel::Listed {
   public:
     Listed(OperatorPanel& panel, Asking& asking) : panel_(panel), asking_(asking) {
@@ -244,7 +244,7 @@ Status OperatorPanel::waitForTurn(Asking& asking, std::optional<DialogEnd>& end)
     return status;
 }
 
-/// One line. Breaks are looked at between waits; virtual time keeps step with the wall.
+/// One line. Breaks are looked at between waits; virtual time keeps pace with the wall clock.
 Status OperatorPanel::readAnswer(Asking& asking, std::optional<DialogEnd>& end) {
     constexpr Time kLook = 100 * kMillisecond;
     while (!endsNow(asking, end)) {

@@ -1,5 +1,7 @@
 #include "runtime/value/value_text.h"
 
+#include "runtime/value/whole_limits.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -12,9 +14,6 @@
 namespace rt {
 
 namespace {
-
-constexpr double kNumInteger = 8388608.0;
-constexpr double kDnumInteger = 4503599627370496.0;
 
 std::string printed(const char* format, int digits, double value) {
     char buffer[400];

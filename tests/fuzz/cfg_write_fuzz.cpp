@@ -38,7 +38,7 @@ bool isWritable(const config::CfgFile& file) {
 }
 
 void compare(const config::CfgFile& a, const config::CfgFile& b) {
-    require(a.domain == b.domain && a.sections.size() == b.sections.size(), "another number of sections");
+    require(a.domain == b.domain && a.sections.size() == b.sections.size(), "a different number of sections");
     for (size_t s = 0; s < a.sections.size(); ++s) {
         std::vector<const config::CfgInstance*> kept;
         for (const config::CfgInstance& instance : a.sections[s].instances)
@@ -47,7 +47,7 @@ void compare(const config::CfgFile& a, const config::CfgFile& b) {
                 "another section");
         for (size_t i = 0; i < kept.size(); ++i) {
             const auto &first = kept[i]->attributes, &second = b.sections[s].instances[i].attributes;
-            require(first.size() == second.size(), "another number of attributes");
+            require(first.size() == second.size(), "a different number of attributes");
             for (size_t n = 0; n < first.size(); ++n)
                 require(first[n].name == second[n].name && first[n].values == second[n].values,
                         "another attribute");

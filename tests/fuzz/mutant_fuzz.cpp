@@ -4,38 +4,23 @@
 #include "frontend/syntax/lexer.h"
 #include "fuzz_support.h"
 #include "tests/fuzz/program_runner.h"
+#include "text_mutator.h"
 
 #include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <random>
 
 namespace {
 
 using namespace rapid;
-using Random = std::mt19937;
-
-size_t below(Random& random, size_t n) {
-    return n == 0 ? 0 : random() % n;
-}
+using fuzz::below;
+using fuzz::Random;
 
 /// The programs of the tests that consist of one module.
 const std::vector<std::string>& seeds() {
     static const std::vector<std::string> texts = [] {
-        std::vector<std::filesystem::path> paths;
-        const std::filesystem::path root = RAPIDC_SOURCE_DIR "/tests/golden";
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-            if (entry.path().extension() == ".modx") paths.push_back(entry.path());
-        std::sort(paths.begin(), paths.end());
-        std::vector<std::string> read;
-        for (const auto& path : paths) {
-            std::ifstream file(path, std::ios::binary);
-            std::string text((std::istreambuf_iterator<char>(file)), {});
-            if (text.find("PROC main(") != std::string::npos) read.push_back(std::move(text));
-        }
-        return read;
+        std::vector<std::string> modules = fuzz::modulesOf({"/tests/golden"});
+        std::erase_if(modules,
+                      [](const std::string& text) { return text.find("PROC main(") == std::string::npos; });
+        return modules;
     }();
     return texts;
 }
@@ -134,14 +119,9 @@ bool isLeftOut(const std::string& text) {
 } // namespace
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t maxSize, unsigned seed) {
-    Random random(seed);
-    std::string text(reinterpret_cast<const char*>(data), size);
-    if (size < 20 || below(random, 50) == 0) text = seeds()[below(random, seeds().size())];
-    for (size_t n = 1 + below(random, 3); n > 0; --n)
+    return fuzz::mutate(data, size, maxSize, seed, seeds(), 3, [](std::string& text, Random& random) {
         text = below(random, 3) > 0 ? changeWord(std::move(text), random) : changeLines(text, random);
-    if (text.size() > maxSize) return size;
-    std::memcpy(data, text.data(), text.size());
-    return text.size();
+    });
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

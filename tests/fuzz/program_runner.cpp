@@ -116,6 +116,42 @@ bool ProgramRunner::check(const TaskTexts& tasks) {
     return !sink.hasErrors();
 }
 
+namespace {
+
+/// Runs a compiled program, for two or twenty seconds of virtual time.
+RunResult execute(const rt::ProgramDesc& program, const Way& way) {
+    rt::RunOptions runOptions;
+    runOptions.hasMaxTime = true;
+    runOptions.maxTime = 2;
+    runOptions.stackBytes = 1u << 20;
+    const MemoryFile events, signals, errors;
+    if (way.records) {
+        runOptions.maxTime = 20;
+        runOptions.outputs.events = events.path();
+        runOptions.outputs.signals = signals.path();
+        runOptions.outputs.errors = errors.path();
+    }
+    RunResult result;
+    {
+        const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
+        {
+            rt::Controller controller(runOptions);
+            rt::setUpStandardLibrary(controller);
+            result.status = static_cast<int>(controller.prepare(program));
+            if (result.status == 0) result.status = static_cast<int>(controller.run());
+        }
+        std::fflush(stdout);
+        std::fflush(stderr);
+        result.output = out.text();
+        result.events = events.text();
+        result.signals = signals.text();
+        result.errors = errors.text();
+    }
+    return result;
+}
+
+} // namespace
+
 RunResult ProgramRunner::run(Way way) {
     const auto demand = [&](bool condition, const std::string& what) {
         if (!condition)
@@ -148,33 +184,7 @@ RunResult ProgramRunner::run(Way way) {
     std::string error;
     const auto code = codegen::jit(module, codegenOptions, symbols, error);
     demand(code != nullptr, "checked, but no machine code: " + error);
-    rt::RunOptions runOptions;
-    runOptions.hasMaxTime = true;
-    runOptions.maxTime = 2;
-    runOptions.stackBytes = 1u << 20;
-    const MemoryFile events, signals, errors;
-    if (way.records) {
-        runOptions.maxTime = 20;
-        runOptions.outputs.events = events.path();
-        runOptions.outputs.signals = signals.path();
-        runOptions.outputs.errors = errors.path();
-    }
-    RunResult result;
-    {
-        const Capture out(STDOUT_FILENO), err(STDERR_FILENO);
-        {
-            rt::Controller controller(runOptions);
-            rt::setUpStandardLibrary(controller);
-            result.status = static_cast<int>(controller.prepare(*code->program()));
-            if (result.status == 0) result.status = static_cast<int>(controller.run());
-        }
-        std::fflush(stdout);
-        std::fflush(stderr);
-        result.output = out.text();
-        result.events = events.text();
-        result.signals = signals.text();
-        result.errors = errors.text();
-    }
+    const RunResult result = execute(*code->program(), way);
     demand(result.status == 0 || result.status == 1 || result.status == 4 ||
                (result.status == 2 && refusable_),
            "exit status " + std::to_string(result.status));

@@ -6,23 +6,15 @@
 #include "frontend/sema/checker.h"
 #include "fuzz_support.h"
 #include "tests/unit/query/every_query.h"
+#include "text_mutator.h"
 
 #include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <random>
 
 namespace {
 
 using namespace rapid;
-using Random = std::mt19937;
-
-std::string readAll(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using fuzz::below;
+using fuzz::Random;
 
 const std::vector<sema::LibraryText>& library() {
     static std::vector<std::string> texts;
@@ -33,7 +25,7 @@ const std::vector<sema::LibraryText>& library() {
                                              "decl/move",        "decl/various",      "decl/io_signals",
                                              "decl/program_flow"};
         for (const char* name : kNames) {
-            texts.push_back(readAll(std::string(RAPIDC_SOURCE_DIR "/stdlib/") + name + ".sysx"));
+            texts.push_back(fuzz::readAll(std::string(RAPIDC_SOURCE_DIR "/stdlib/") + name + ".sysx"));
             fuzz::require(!texts.back().empty(), "a declaration file of the standard library is missing");
         }
         for (size_t i = 0; i < texts.size(); ++i)
@@ -44,23 +36,8 @@ const std::vector<sema::LibraryText>& library() {
 }
 
 const std::vector<std::string>& seeds() {
-    static const std::vector<std::string> texts = [] {
-        std::vector<std::filesystem::path> paths;
-        for (const char* folder : {"/tests/golden", "/tests/diag"})
-            for (const auto& entry :
-                 std::filesystem::recursive_directory_iterator(std::string(RAPIDC_SOURCE_DIR) + folder))
-                if (entry.path().extension() == ".modx") paths.push_back(entry.path());
-        std::sort(paths.begin(), paths.end());
-        std::vector<std::string> read;
-        for (const auto& path : paths)
-            read.push_back(readAll(path));
-        return read;
-    }();
+    static const std::vector<std::string> texts = fuzz::modulesOf({"/tests/golden", "/tests/diag"});
     return texts;
-}
-
-size_t below(Random& random, size_t n) {
-    return n == 0 ? 0 : random() % n;
 }
 
 /// Changes of a text that is being written: pieces go, come twice, or are half there.
@@ -85,14 +62,7 @@ void change(std::string& text, Random& random) {
 } // namespace
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t maxSize, unsigned seed) {
-    Random random(seed);
-    std::string text(reinterpret_cast<const char*>(data), size);
-    if (size < 20 || below(random, 50) == 0) text = seeds()[below(random, seeds().size())];
-    for (size_t n = 1 + below(random, 4); n > 0; --n)
-        change(text, random);
-    text.resize(std::min(text.size(), maxSize));
-    std::memcpy(data, text.data(), text.size());
-    return text.size();
+    return fuzz::mutate(data, size, maxSize, seed, seeds(), 4, change);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -18,7 +18,7 @@ enum class CloseCode : uint16_t {
     TooBig = 1009,
 };
 
-/// The end of a socket with which a service sends; may be kept and called from every thread, also after the socket has ended.
+/// The end of a socket with which a service sends; may be kept and called from every thread, even after the socket has ended.
 class WebSocket {
   public:
     virtual ~WebSocket() = default;

@@ -46,7 +46,7 @@ struct Range {
 /// The unit that a character of a Position counts.
 enum class PositionEncoding : uint8_t { Utf16, Utf8 };
 
-// ---- readers of parameters; what is missing or of another type becomes a RequestError (kInvalidParams)
+// ---- readers of parameters; what is missing or of a different type becomes a RequestError (kInvalidParams)
 
 /// A member that has to be there.
 const Json& field(const Json& object, const char* name);

@@ -11,8 +11,6 @@ namespace {
 
 using service::BreakpointList;
 
-constexpr int64_t kMostLine = 10'000'000;
-
 class BreakpointArea final : public Area {
   public:
     explicit BreakpointArea(const Context& context)
@@ -60,7 +58,7 @@ class BreakpointArea final : public Area {
         BreakpointList::Mark mark;
         mark.task = named.task.name();
         mark.module = named.module.name;
-        mark.line = static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine));
+        mark.line = lineOf(params);
         switch (breakpoints_.add(mark, false)) {
         case BreakpointList::Added::TooMany:
             throw RequestError{code::kTooLarge, "There are too many breakpoints", "Remove some of them"};
@@ -77,7 +75,7 @@ class BreakpointArea final : public Area {
     void clear(const Json& params) {
         if (!has(params, "task") && !has(params, "module") && !has(params, "line"))
             return breakpoints_.clear();
-        const auto line = static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine));
+        const auto line = lineOf(params);
         if (breakpoints_.remove(textOf(params, "task"), textOf(params, "module"), line) == 0)
             notFound("No breakpoint is set in that line");
     }

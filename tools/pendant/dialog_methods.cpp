@@ -5,6 +5,7 @@
 #include "tools/pendant/areas.h"
 #include "tools/pendant/hub.h"
 #include "tools/pendant/support.h"
+#include "tools/service/dialog_names.h"
 
 #include <algorithm>
 #include <deque>
@@ -18,18 +19,10 @@ namespace {
 using service::Change;
 using Open = rt::OperatorPanel::OpenDialog;
 
-constexpr std::size_t kMostLines = 100;  // of the display, as the panel keeps
-constexpr std::size_t kLongestText = 80; // of a RAPID string
+constexpr std::size_t kMostLines = 100; // of the display, as the panel keeps
 
 const char* kindOf(const rt::Dialog& dialog) {
-    if (!dialog.answerable) return "message";
-    switch (dialog.kind) {
-    case rt::DialogKind::Choice: return "choice";
-    case rt::DialogKind::Number: return "number";
-    case rt::DialogKind::Text: return "text";
-    case rt::DialogKind::List: break;
-    }
-    return "list";
+    return dialog.answerable ? service::nameOf(dialog.kind) : "message";
 }
 
 Json describe(const Open& open) {
@@ -170,10 +163,10 @@ Json DialogArea::answer(const Json& params) {
     case rt::DialogKind::Number: answer = fmt::format("{}", numberOf(params, "number")); break;
     case rt::DialogKind::Text: {
         const std::string text = textOf(params, "text");
-        if (text.size() > kLongestText)
-            badRequest(fmt::format("A text has at most {} characters", kLongestText));
+        if (text.size() > rt::kStringCapacity)
+            badRequest(fmt::format("A text has at most {} characters", rt::kStringCapacity));
         if (text.find_first_of("\r\n") != std::string::npos) badRequest("A text has one line");
-        answer = "\"" + text + "\""; // as it is, also when it is empty
+        answer = "\"" + text + "\""; // as it is, even when it is empty
         break;
     }
     }

@@ -27,7 +27,6 @@ constexpr Word<StopMode> kStops[] = {
     {"instruction", StopMode::Instruction},
     {"quick", StopMode::Quick},
 };
-constexpr int64_t kMostLine = 10'000'000;
 
 const char* kindOf(const rt::Task& task) {
     switch (task.kind()) {
@@ -146,7 +145,7 @@ void ExecutionArea::addTo(MethodTable& methods) {
     });
     methods.add("run.pointerToLine", [this](Client&, const Json& params) {
         const NamedModule named = moduleOf(controller_, params);
-        const auto line = static_cast<uint32_t>(wholeOf(params, "line", 1, kMostLine));
+        const auto line = lineOf(params);
         refuseUnless(controller_.pointerToLine(named.task, named.module.name, line));
         return Json();
     });

@@ -34,7 +34,6 @@ enum class TargetKind : uint8_t { Robtarget, Jointtarget };
 constexpr Word<TargetKind> kTargets[] = {{"robtarget", TargetKind::Robtarget},
                                          {"jointtarget", TargetKind::Jointtarget}};
 constexpr double kMostIncrement = 1000; // mm or degrees
-constexpr int64_t kMostLine = 10'000'000;
 
 std::string figure(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
@@ -183,7 +182,7 @@ Json JogArea::read(const Json& params) {
 /// The names in that line count; the rest of an instruction that continues on other lines does not.
 Json JogArea::modify(const Json& params) {
     const NamedModule named = moduleOf(controller_, params);
-    const int64_t line = wholeOf(params, "line", 1, kMostLine);
+    const uint32_t line = lineOf(params);
     if (controller_.panel().mode == service::OperatingMode::Auto)
         refuseUnless("positions cannot be modified in automatic mode: choose manual mode");
     if (controller_.isRunning()) refuseUnless("the program is executing: stop it first");

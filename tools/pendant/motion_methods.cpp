@@ -20,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::microseconds kSamplePeriod{16'000}; // of the wall clock: about 60 a second
-constexpr int kDegrees = 4;
 
 const char* kindOf(motion::MoveKind kind) {
     switch (kind) {
@@ -33,7 +32,7 @@ const char* kindOf(motion::MoveKind kind) {
 Json jointsJson(const robot::Joints& joints) {
     Json json = Json::array();
     for (const double joint : joints)
-        json.push_back(rounded(joint, kDegrees));
+        json.push_back(rounded(joint, kAngleDecimals));
     return json;
 }
 
@@ -41,7 +40,7 @@ Json jointsJson(const robot::Joints& joints) {
 Json externalJson(const motion::ExternalAxes& axes) {
     Json json = Json::array();
     for (const double axis : axes)
-        json.push_back(motion::isConnected(axis) ? rounded(axis, kDegrees) : Json());
+        json.push_back(motion::isConnected(axis) ? rounded(axis, kAngleDecimals) : Json());
     while (!json.empty() && json.back().is_null())
         json.erase(json.size() - 1);
     return json;

@@ -76,7 +76,7 @@ class PanelArea final : public Area {
                 {"pace", controller_.pace()},
                 {"running", controller_.isTimeRunning()}};
     }
-    /// The next flush shows the panel, also where no observer was called.
+    /// The next flush shows the panel, even where no observer was called.
     void touch() { isChanged_ = true, hub_.wake(); }
     Json setTime(const Json& params) {
         if (has(params, "pace")) controller_.setPace(static_cast<int>(wholeOf(params, "pace", 0, kMostPace)));

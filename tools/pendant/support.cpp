@@ -12,7 +12,7 @@ namespace rapidc::pendant {
 
 namespace {
 
-constexpr int kMillimetres = 3, kQuaternion = 7; // decimals
+constexpr int kQuaternionDecimals = 7;
 
 } // namespace
 
@@ -34,6 +34,10 @@ NamedModule moduleOf(service::VirtualController& controller, const Json& params)
     return {task, *module, std::move(text)};
 }
 
+uint32_t lineOf(const Json& params) {
+    return static_cast<uint32_t>(wholeOf(params, "line", 1, rws::kMostLine));
+}
+
 rt::MotionDriver& motionOf(service::VirtualController& controller, const std::string& unit) {
     for (const auto& motion : controller.core().motions())
         if (rapid::config::sameName(motion->unitName(), unit)) return *motion;
@@ -50,14 +54,14 @@ HostFile fileOf(service::VirtualController& controller, const Json& params, cons
 }
 
 Json vectorJson(const robot::Vec3& vector) {
-    return Json::array(
-        {rounded(vector.x, kMillimetres), rounded(vector.y, kMillimetres), rounded(vector.z, kMillimetres)});
+    return Json::array({rounded(vector.x, kLengthDecimals), rounded(vector.y, kLengthDecimals),
+                        rounded(vector.z, kLengthDecimals)});
 }
 
 Json poseJson(const robot::Pose& pose) {
     Json json = vectorJson(pose.pos);
     for (const double part : {pose.rot.w, pose.rot.x, pose.rot.y, pose.rot.z})
-        json.push_back(rounded(part, kQuaternion));
+        json.push_back(rounded(part, kQuaternionDecimals));
     return json;
 }
 

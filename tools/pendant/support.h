@@ -20,6 +20,8 @@ struct NamedModule {
     std::string text;
 };
 NamedModule moduleOf(service::VirtualController& controller, const Json& params);
+/// params.line, from 1; throws bad_request.
+uint32_t lineOf(const Json& params);
 /// The unit of that name; throws not_found.
 rt::MotionDriver& motionOf(service::VirtualController& controller, const std::string& unit);
 
@@ -30,6 +32,8 @@ struct HostFile {
 /// A file or folder of a volume that params[name] names; throws bad_request.
 HostFile fileOf(service::VirtualController& controller, const Json& params, const char* name);
 
+/// Decimals of lengths in mm, of angles in degrees (and of mm of linear axes).
+inline constexpr int kLengthDecimals = 3, kAngleDecimals = 4;
 /// [x, y, z, q1, q2, q3, q4]
 Json poseJson(const robot::Pose& pose);
 Json vectorJson(const robot::Vec3& vector);

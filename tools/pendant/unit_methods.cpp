@@ -17,8 +17,6 @@ namespace rapidc::pendant {
 
 namespace {
 
-constexpr int kDegrees = 4, kMillimetres = 3; // decimals
-
 const char* motionName(Body::Motion motion) {
     switch (motion) {
     case Body::Motion::Fixed: return "fixed";
@@ -36,7 +34,7 @@ Json solidJson(const Solid& solid) {
               {"role", kRoles[static_cast<std::size_t>(solid.role)]},
               {"from", vectorJson(solid.from)},
               {"to", vectorJson(solid.to)},
-              {"radius", rounded(solid.radius, kMillimetres)}};
+              {"radius", rounded(solid.radius, kLengthDecimals)}};
     if (solid.kind == Solid::Kind::Rod) json["toBody"] = solid.toBody;
     return json;
 }
@@ -53,7 +51,7 @@ Json bodyJson(const Body& body) {
         {"origin", poseJson(body.origin)},
         {"axis", Json::array({rounded(body.axis.x, 7), rounded(body.axis.y, 7), rounded(body.axis.z, 7)})},
         {"motion", motionName(body.motion)},
-        {"constant", rounded(body.constant, kDegrees)},
+        {"constant", rounded(body.constant, kAngleDecimals)},
         {"terms", std::move(terms)},
         {"solids", std::move(solids)}};
 }
@@ -65,9 +63,9 @@ Json jointsJson(const rt::MotionDriver& motion, const robot::Kinematics& kinemat
         joints.push_back({{"axis", kinematics.axisNumber(i)},
                           {"name", std::to_string(kinematics.axisNumber(i))},
                           {"kind", kinematics.isLinear(i) ? "linear" : "rotary"},
-                          {"lower", rounded(kinematics.lowerDeg()[i], kDegrees)},
-                          {"upper", rounded(kinematics.upperDeg()[i], kDegrees)},
-                          {"maxSpeed", rounded(model.maxSpeed[i], kDegrees)}});
+                          {"lower", rounded(kinematics.lowerDeg()[i], kAngleDecimals)},
+                          {"upper", rounded(kinematics.upperDeg()[i], kAngleDecimals)},
+                          {"maxSpeed", rounded(model.maxSpeed[i], kAngleDecimals)}});
     return joints;
 }
 
@@ -105,9 +103,9 @@ Json UnitArea::externalJson(const rt::MotionDriver& motion) const {
                       {"unit", unit->name},
                       {"active", unit->isActive},
                       {"kind", axis.limits.rotating ? "rotary" : "linear"},
-                      {"lower", rounded(axis.limits.lower, kDegrees)},
-                      {"upper", rounded(axis.limits.upper, kDegrees)},
-                      {"maxSpeed", rounded(axis.limits.maxSpeed, kDegrees)},
+                      {"lower", rounded(axis.limits.lower, kAngleDecimals)},
+                      {"upper", rounded(axis.limits.upper, kAngleDecimals)},
+                      {"maxSpeed", rounded(axis.limits.maxSpeed, kAngleDecimals)},
                       {"base", nullptr}};
             for (const robot::ExternalJoint& joint : unit->geometry.joints)
                 if (joint.axis == axis.index) json["base"] = poseJson(joint.base);

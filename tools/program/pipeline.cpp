@@ -33,7 +33,7 @@ void addTaskOption(const rt::Command& command, Inputs& inputs) {
     command
         .add("--task", inputs.tasks,
              "A further task, which runs the main of its inputs; NAME:STATIC= and NAME:SEMISTATIC= give its "
-             "type; repeatable, also to add inputs to a task")
+             "type; repeatable; also adds inputs to a task")
         .typeName("NAME[:TYPE]=INPUT[,INPUT]")
         .oneValueEach();
 }

@@ -6,6 +6,7 @@
 #include "tools/program/pipeline.h"
 #include "tools/program/program_sources.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/temporary.h"
 #include "runtime/host/run_options.h"
@@ -124,22 +125,14 @@ bool makeExecutable(const BuildSettings& settings, const codegen::CodegenOptions
 int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
-    if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors)
-            fmt::print(stderr, "rapidc build: {}\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (!compilation->usageErrors.empty()) return usageErrors("build", compilation->usageErrors);
     if (settings.output.empty()) settings.output = fs::path(settings.inputs.paths[0]).stem().string();
     if (settings.output.empty()) settings.output = "a.out";
-    if (const std::string problem = outputProblem(settings.output); !problem.empty()) {
-        fmt::print(stderr, "rapidc build: {}; name the executable with -o FILE\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (const std::string problem = outputProblem(settings.output); !problem.empty())
+        return usageError("build", problem + "; name the executable with -o FILE");
     if (const std::string conflict = outputConflict(*compilation, {{"-o", settings.output}});
-        !conflict.empty()) {
-        fmt::print(stderr, "rapidc build: {}\n", conflict);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+        !conflict.empty())
+        return usageError("build", conflict);
     keepOptions(*compilation, "robot", settings.inputs.robots);
     keepOptions(*compilation, "conveyor", settings.inputs.conveyors);
     std::error_code ignored;
@@ -187,7 +180,7 @@ void addBuildCommand(rt::CommandLine& line) {
     command.addFlag("--strip", settings->strip, "Leave out debug information");
     command.addFlag("--no-cache", settings->noCache,
                     "Compile every module of a large program again, and keep nothing in the cache");
-    command.addFlag("--in-parts", settings->inParts, "Compile each module by itself, also in a small program")
+    command.addFlag("--in-parts", settings->inParts, "Compile each module by itself, even in a small program")
         .hide(); // for tests
     command
         .addFlag("--without-overflow-checks", settings->withoutOverflowChecks,

@@ -3,6 +3,7 @@
 #include "runtime/host/command_line.h"
 #include "tools/program/pipeline.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/nearest.h"
 #include "frontend/sema/names.h"
@@ -207,7 +208,7 @@ int show(const std::string& format, const std::vector<std::string>& names) {
     const auto compilation = checkInputs(inputs);
     const std::vector<Row> rows = collect(*compilation->program);
     std::vector<Row> selected;
-    if (!select(rows, names, selected)) return static_cast<int>(rt::ExitStatus::BadUsage);
+    if (!select(rows, names, selected)) return kBadUsage;
     if (names.empty()) selected = rows;
     const bool listed =
         names.empty() || (std::any_of(names.begin(), names.end(), isPattern) && selected.size() > 1);

@@ -5,6 +5,7 @@
 #include "tools/rapidc/apply_fixes.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/missing_report.h"
+#include "tools/rapidc/usage.h"
 
 #include "frontend/project/neighbours.h"
 #include "runtime/host/run_options.h"
@@ -63,10 +64,8 @@ void printMissing(const Compilation& compilation, const Inputs& inputs, bool jso
 }
 
 int check(CheckSettings& settings) {
-    if (settings.missing && settings.format == "sarif") {
-        fmt::print(stderr, "rapidc check: --missing has the formats human and json\n");
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (settings.missing && settings.format == "sarif")
+        return usageError("check", "--missing has the formats human and json");
     if (settings.missing) settings.inputs.onlyDiagnostics = false;
     if (settings.fix) fixFiles(settings.inputs);
     // Kept to the end of the process: taking a large program apart takes as long as parsing it.
@@ -74,11 +73,7 @@ int check(CheckSettings& settings) {
     kept = checkInputs(settings.inputs);
     rapid::project::noteNeighbours(kept->sink, settings.inputs.paths);
     const Compilation* compilation = kept.get();
-    if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors)
-            fmt::print(stderr, "rapidc check: {}\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (!compilation->usageErrors.empty()) return usageErrors("check", compilation->usageErrors);
     const rapid::diag::Sink& sink = compilation->sink;
     if (settings.missing)
         printMissing(*compilation, settings.inputs, settings.format == "json");
@@ -105,7 +100,7 @@ void addCheckCommand(rt::CommandLine& line) {
     settings->inputs.onlyDiagnostics = true;
     addAssumeSignalsOption(command, settings->inputs);
     addWarningOption(command, settings->inputs);
-    command.add("--format", settings->format, "human, json or sarif").oneOf({"human", "json", "sarif"});
+    command.add("--format", settings->format, "Format of the diagnostics").oneOf({"human", "json", "sarif"});
     command.addFlag("--missing", settings->missing,
                     "Print only a table of what is missing: built-ins, names, modules, "
                     "signals, options");

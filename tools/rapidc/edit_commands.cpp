@@ -5,6 +5,7 @@
 #include "tools/program/pipeline.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/text_diff.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
 #include "config/read_file.h"
@@ -28,8 +29,6 @@ namespace {
 namespace diag = rapid::diag;
 namespace edit = rapid::edit;
 namespace sema = rapid::sema;
-
-constexpr int kUsage = static_cast<int>(rt::ExitStatus::BadUsage);
 
 struct EditSettings {
     std::string change; ///< set-value: NAME=VALUE
@@ -75,7 +74,7 @@ int writeFiles(const char* command, const edit::EditSet& set, bool diffOnly) {
 std::unique_ptr<Compilation> load(const char* command, const Inputs& inputs, int& status) {
     auto compilation = checkInputs(inputs);
     for (const std::string& problem : compilation->usageErrors)
-        status = fail(command, problem, kUsage);
+        status = fail(command, problem, kBadUsage);
     if (compilation->usageErrors.empty()) return compilation;
     return nullptr;
 }
@@ -148,21 +147,22 @@ std::string destinationConflict(const EditSettings& settings, const rt::ModuleTe
 /// executables call.
 int setValues(const EditSettings& settings) {
     if (settings.inputs.paths.size() != 1 || !settings.inputs.tasks.empty())
-        return fail("set-value", "--values changes one file: name one module file, without --task", kUsage);
+        return fail("set-value", "--values changes one file: name one module file, without --task",
+                    kBadUsage);
     rt::ModuleText text;
     text.source = settings.inputs.paths.front();
     text.destination = settings.output.empty() ? text.source : settings.output;
     std::string values;
     if (const std::string problem = rapid::config::readStream(settings.values, values); !problem.empty())
-        return fail("set-value", fmt::format("cannot read '{}': {}", settings.values, problem), kUsage);
+        return fail("set-value", fmt::format("cannot read '{}': {}", settings.values, problem), kBadUsage);
     if (const std::string conflict = destinationConflict(settings, text); !conflict.empty())
-        return fail("set-value", conflict, kUsage);
+        return fail("set-value", conflict, kBadUsage);
     std::istringstream lines(values);
     for (std::string line; std::getline(lines, line);) {
         if (line.empty()) continue;
         if (!readValue(line, text.values.emplace_back()))
             return fail("set-value", fmt::format("cannot read '{}': expected MODULE.DATA=VALUE", line),
-                        kUsage);
+                        kBadUsage);
     }
     const rt::StoreResult result = SourceStore().store(text);
     if (!result.problem.empty()) return fail("set-value", result.problem);
@@ -175,8 +175,8 @@ int setValue(const EditSettings& settings) {
     const size_t equals = settings.change.find('=');
     if (equals == std::string::npos || equals == 0)
         return fail("set-value", fmt::format("cannot read '{}': expected MODULE.DATA=VALUE", settings.change),
-                    kUsage);
-    if (settings.inputs.paths.empty()) return fail("set-value", "input is required", kUsage);
+                    kBadUsage);
+    if (settings.inputs.paths.empty()) return fail("set-value", "input is required", kBadUsage);
     const std::string path = settings.change.substr(0, equals), value = settings.change.substr(equals + 1);
     int status = 0;
     const auto compilation = load("set-value", settings.inputs, status);
@@ -230,7 +230,7 @@ void addSetValueCommand(rt::CommandLine& line) {
     const auto body = [settings] {
         if (settings->values.empty()) {
             return settings->output.empty() ? setValue(*settings)
-                                            : fail("set-value", "--output needs --values", kUsage);
+                                            : fail("set-value", "--output needs --values", kBadUsage);
         }
         // There is no change to name: the first word is the input.
         settings->inputs.paths.insert(settings->inputs.paths.begin(), settings->change);

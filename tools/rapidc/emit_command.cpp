@@ -4,6 +4,7 @@
 #include "tools/program/native_library.h"
 #include "tools/program/pipeline.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 
 #include "frontend/syntax/parser.h"
 #include "ir/text/text.h"
@@ -62,8 +63,7 @@ int write(const EmitSettings& settings, const std::string& text) {
     }
     const std::string problem = rt::writeWhole(settings.output, text);
     if (problem.empty()) return 0;
-    fmt::print(stderr, "rapidc emit: {}\n", problem);
-    return static_cast<int>(rt::ExitStatus::BadUsage);
+    return usageError("emit", problem);
 }
 
 std::string emitMachine(const EmitSettings& settings, const ir::Module& module, std::string& error) {
@@ -87,16 +87,10 @@ std::function<bool(const rapid::sema::RoutineSymbol&)> keptRoutines(const Compil
 int emit(EmitSettings& settings) {
     const bool early = settings.as == "tokens" || settings.as == "tree";
     const auto compilation = checkInputs(settings.inputs);
-    if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors)
-            fmt::print(stderr, "rapidc emit: {}\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (!compilation->usageErrors.empty()) return usageErrors("emit", compilation->usageErrors);
     if (const std::string conflict = outputConflict(*compilation, {{"-o", settings.output}});
-        !conflict.empty()) {
-        fmt::print(stderr, "rapidc emit: {}\n", conflict);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+        !conflict.empty())
+        return usageError("emit", conflict);
     std::string text;
     if (early) {
         for (const auto& tree : compilation->program->trees) {

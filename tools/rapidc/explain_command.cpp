@@ -2,6 +2,7 @@
 
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/explain_runtime.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
 #include "frontend/diag/catalogue.h"
@@ -53,7 +54,7 @@ int explain(const std::string& code) {
             "as "
             "unused-variable, the number of an event such as 40229, or an error such as ERR_DIVZERO{}\n",
             code, nearestError(code));
-        return static_cast<int>(rt::ExitStatus::BadUsage);
+        return kBadUsage;
     }
     fmt::print("RAP{} {} ({})\n", entry->number, entry->name, rapid::diag::severityName(entry->severity));
     fmt::print("area: {}\ntext: {}\n", rapid::diag::areaOf(entry->number), rapid::diag::messageOf(*entry));
@@ -100,12 +101,12 @@ void addExplainCommand(rt::CommandLine& line) {
     const auto body = [code, folder] {
         if (code->empty() && folder->empty()) {
             fmt::print(stderr, "rapidc explain: code is required\nrapidc explain --help says more\n");
-            return static_cast<int>(rt::ExitStatus::BadUsage);
+            return kBadUsage;
         }
         return folder->empty() ? explain(*code) : writePages(*folder);
     };
     const rt::Command command =
-        line.addCommand("explain", "Say what a diagnostic, an event or an error means", body);
+        line.addCommand("explain", "Explain a diagnostic, an event or an error", body);
     const rt::Option one = command.add(
         "code", *code, "RAP2104, the name of a warning, the number of an event (40229), or ERR_NAME");
     const rt::Option all = command.add("--pages", *folder, "Write a page for every code into this folder");

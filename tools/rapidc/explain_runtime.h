@@ -6,7 +6,7 @@
 
 namespace rapidc {
 
-/// The explanation of an event number as the log shows it (40229, also with the word "event" before); "" if it is none.
+/// The explanation of an event number as the log shows it (40229, also "event 40229"); "" if it is none.
 std::string explainEvent(std::string_view text);
 /// The explanation of an error constant (ERR_DIVZERO, in any case) or of its number; "" if it is none.
 std::string explainError(std::string_view text);

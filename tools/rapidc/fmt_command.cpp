@@ -3,6 +3,7 @@
 #include "runtime/host/command_line.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/text_diff.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
 #include "config/temporary.h"
@@ -40,9 +41,7 @@ struct FmtSettings {
     std::string range;
 };
 
-constexpr int kUsage = static_cast<int>(rt::ExitStatus::BadUsage);
-
-/// "FIRST:LAST"; false when it has another form.
+/// "FIRST:LAST"; false when it has a different form.
 bool readRange(const std::string& text, format::FormatRequest& request) {
     unsigned first = 0, last = 0;
     int length = 0;
@@ -83,7 +82,7 @@ class Fmt {
         const rapid::workspace::ModuleFiles files = rapid::workspace::findModuleFiles(settings_.inputs);
         for (const std::string& problem : files.problems)
             fmt::print(stderr, "rapidc fmt: {}\n", problem);
-        if (!files.problems.empty()) return kUsage;
+        if (!files.problems.empty()) return kBadUsage;
         if (!settings_.range.empty() && files.paths.size() != 1)
             return usage("--range needs exactly one module");
         if (!settings_.check && !settings_.diff) rapid::config::removeLeftoversBeside(files.paths);
@@ -95,7 +94,7 @@ class Fmt {
   private:
     static int usage(const std::string& problem) {
         fmt::print(stderr, "rapidc fmt: {}\n", problem);
-        return kUsage;
+        return kBadUsage;
     }
 
     int runStdin() {
@@ -186,7 +185,7 @@ class Fmt {
 
 void addFmtCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<FmtSettings>();
-    const rt::Command command = line.addCommand("fmt", "Lay out modules; what they mean never changes",
+    const rt::Command command = line.addCommand("fmt", "Format modules without changing their meaning",
                                                 [settings] { return Fmt(*settings).run(); });
     command.add("input", settings->inputs, "Modules; folders with all modules below them");
     command.addFlag("--check", settings->check,

@@ -5,6 +5,7 @@
 #include "tools/program/controller_environment.h"
 #include "tools/program/pipeline.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 
 #include "runtime/host/run_options.h"
 
@@ -18,10 +19,8 @@ namespace {
 int serve(const Inputs& inputs) {
     rapid::lint::WarningLevels levels;
     for (const std::string& option : inputs.warnings)
-        if (std::string problem; !rapid::lint::applyOption(option, levels, problem)) {
-            fmt::print(stderr, "rapidc lsp: {}\n", problem);
-            return static_cast<int>(rt::ExitStatus::BadUsage);
-        }
+        if (std::string problem; !rapid::lint::applyOption(option, levels, problem))
+            return usageError("lsp", problem);
     return lsp::serve(controllerEnvironment(), inputs.warnings);
 }
 

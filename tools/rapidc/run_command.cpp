@@ -6,6 +6,7 @@
 #include "tools/program/run_setup.h"
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/line_debugger.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/temporary.h"
 #include "runtime/host/controller.h"
@@ -89,17 +90,10 @@ int run(RunSettings& settings) {
     inputs.home = settings.options.home;
     inputs.requireMain = true;
     auto compilation = checkInputs(inputs);
-    if (!compilation->usageErrors.empty()) {
-        for (const std::string& problem : compilation->usageErrors)
-            fmt::print(stderr, "rapidc run: {}\n", problem);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (!compilation->usageErrors.empty()) return usageErrors("run", compilation->usageErrors);
     findStimulus(settings.options, inputs.paths);
     std::string error = conflictOf(settings, *compilation);
-    if (!error.empty() || !readStimulus(settings.options, error)) {
-        fmt::print(stderr, "rapidc run: {}\n", error);
-        return static_cast<int>(rt::ExitStatus::BadUsage);
-    }
+    if (!error.empty() || !readStimulus(settings.options, error)) return usageError("run", error);
     rapid::config::removeLeftoversBeside(compilation->filesRead);
     // A later process can continue in the middle of a program of the stepping profile only.
     settings.stepping = settings.stepping || settings.interactive || stimulusSteps(settings.options) ||
@@ -126,10 +120,7 @@ int run(RunSettings& settings) {
     rapid::config::TemporaryFolder folder;
     if (settings.options.home.empty() && !home.empty()) {
         settings.options.home = copyHome(home, folder, error);
-        if (settings.options.home.empty()) {
-            fmt::print(stderr, "rapidc run: {}\n", error);
-            return static_cast<int>(rt::ExitStatus::BadUsage);
-        }
+        if (settings.options.home.empty()) return usageError("run", error);
     }
     makeFolders(settings);
     return execute(settings, program);
@@ -158,7 +149,7 @@ void addRunCommand(rt::CommandLine& line) {
         .hide(); // for tests
     command
         .addFlag("--in-parts", settings->inParts,
-                 "Compile each routine when it is called first, also in a small program")
+                 "Compile each routine when it is called first, even in a small program")
         .hide(); // for tests
 }
 

@@ -3,6 +3,7 @@
 #include "runtime/host/command_line.h"
 #include "tools/program/pipeline.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
 #include "runtime/host/run_options.h"
@@ -22,9 +23,7 @@ struct SignalsSettings {
 int writeSignalFile(SignalsSettings& settings) {
     settings.inputs.assumeSignals = true;
     const auto compilation = checkInputs(settings.inputs);
-    for (const std::string& problem : compilation->usageErrors)
-        fmt::print(stderr, "rapidc signals: {}\n", problem);
-    if (!compilation->usageErrors.empty()) return static_cast<int>(rt::ExitStatus::BadUsage);
+    if (!compilation->usageErrors.empty()) return usageErrors("signals", compilation->usageErrors);
     const std::vector<rapid::workspace::UsedSignal>& signals = compilation->assumedSignals;
     for (const rapid::workspace::UsedSignal& signal : signals)
         if (!signal.contradiction.empty())
@@ -38,10 +37,7 @@ int writeSignalFile(SignalsSettings& settings) {
         guard.writesConfiguration(settings.output, "-o");
         std::string problem = outputConflict(*compilation, {}, std::move(guard));
         if (problem.empty()) problem = rapid::config::replaceFile(settings.output, text);
-        if (!problem.empty()) {
-            fmt::print(stderr, "rapidc signals: {}\n", problem);
-            return static_cast<int>(rt::ExitStatus::BadUsage);
-        }
+        if (!problem.empty()) return usageError("signals", problem);
     }
     if (!compilation->sink.hasErrors()) return 0;
     const size_t errors = compilation->sink.errorCount();
@@ -56,7 +52,7 @@ int writeSignalFile(SignalsSettings& settings) {
 void addSignalsCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<SignalsSettings>();
     const rt::Command command = line.addCommand(
-        "signals", "Write the signals that a program uses and no configuration defines as an EIO.cfg",
+        "signals", "Write an EIO.cfg with the signals that a program uses and no configuration defines",
         [settings] { return writeSignalFile(*settings); });
     command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
     command.add("-o,--output", settings->output, "The file to write; without it standard output");

@@ -7,6 +7,7 @@
 #include "tools/program/run_setup.h"
 #include "tools/program/unit_compiler.h"
 #include "tools/rapidc/commands.h"
+#include "tools/rapidc/usage.h"
 #include "tools/testing/coverage.h"
 #include "tools/testing/discovery.h"
 #include "tools/testing/reports.h"
@@ -53,11 +54,6 @@ struct TestSettings {
 
     bool countsStatements() const { return coverage || !lcov.empty() || !page.empty(); }
 };
-
-int usageError(const std::string& problem) {
-    fmt::print(stderr, "rapidc test: {}\n", problem);
-    return static_cast<int>(rt::ExitStatus::BadUsage);
-}
 
 // ---- The program -----------------------------------------------------------------------------------------------------
 
@@ -285,7 +281,7 @@ int test(TestSettings& settings) {
     inputs.cameras = settings.options.cameras;
     inputs.home = settings.options.home;
     const auto compilation = checkInputs(inputs);
-    if (!compilation->usageErrors.empty()) return usageError(compilation->usageErrors.front());
+    if (!compilation->usageErrors.empty()) return usageError("test", compilation->usageErrors.front());
     if (!compilation->program || compilation->program->tasks.empty()) {
         printDiagnostics(*compilation);
         return static_cast<int>(rt::ExitStatus::BadProgram);
@@ -299,12 +295,13 @@ int test(TestSettings& settings) {
                                                       {"--json", settings.json},
                                                       {"--lcov", settings.lcov},
                                                       {"--coverage-page", settings.page}});
-    if (!error.empty() || !readStimulus(settings.options, error)) return usageError(error);
+    if (!error.empty() || !readStimulus(settings.options, error)) return usageError("test", error);
     if (chosen.empty() && !compilation->sink.hasErrors()) {
         if (!all.empty())
             return usageError(
-                fmt::format("none of the {} tests matches {}", all.size(), listed(settings.filters)));
+                "test", fmt::format("none of the {} tests matches {}", all.size(), listed(settings.filters)));
         return usageError(
+            "test",
             fmt::format("there are no tests in {}: a test is a procedure without parameters whose name "
                         "begins with Test (docs/testing.md)",
                         listed(inputs.paths)));
@@ -336,41 +333,41 @@ void addRunOptions(const rt::Command& command, TestSettings& settings) {
     rt::RunOptions& options = settings.options;
     command.add("--home", options.home, "HOME: of each test is a copy of this folder; default: an empty one")
         .typeName("DIR");
-    command.add("--volume", options.volumes, "a further disk of the controller; repeatable")
+    command.add("--volume", options.volumes, "A further disk of the controller; repeatable")
         .typeName("NAME=DIR")
         .oneValueEach();
-    command.add("--device", options.devices, "a serial channel or printer; repeatable")
+    command.add("--device", options.devices, "A serial channel or printer; repeatable")
         .typeName("NAME=FILE[,FILE]")
         .oneValueEach();
-    command.add("--camera", options.cameras, "a camera and what it sees; repeatable")
+    command.add("--camera", options.cameras, "A camera and what it sees; repeatable")
         .typeName("NAME=FILE.json")
         .oneValueEach();
     command
-        .add("--stimulus", options.stimulus, "events from outside, for tests without a stimulus of their own")
+        .add("--stimulus", options.stimulus, "Events from outside, for tests without a stimulus of their own")
         .typeName("FILE.csv");
-    command.addFlag("--offline", options.network.offline, "sockets connect tasks of this controller only");
+    command.addFlag("--offline", options.network.offline, "Sockets connect tasks of this controller only");
     command.addFlag("--all-tasks", settings.withOtherTasks,
-                    "the other tasks execute their main beside each test");
+                    "The other tasks execute their main beside each test");
     const auto maxTime = [&options](double seconds) {
         options.maxTime = seconds;
         options.hasMaxTime = true;
     };
     addNumber(command, "--max-time", 0, false, maxTime,
-              fmt::format("limit of each test in virtual time; default {:g}", kMaxTime), "SECONDS");
+              fmt::format("Limit of each test in virtual time; default {:g}", kMaxTime), "SECONDS");
     addNumber(
         command, "--timeout", 0, false, [&settings](double seconds) { settings.timeout = seconds; },
-        fmt::format("limit of each test on the wall clock; default {:g}", kTimeout), "SECONDS");
+        fmt::format("Limit of each test on the wall clock; default {:g}", kTimeout), "SECONDS");
     addNumber(
         command, "--seed", 0, true, [&options](double seed) { options.seed = static_cast<uint32_t>(seed); },
-        "start value of Rand in each test; default 1", "N");
+        "Start value of Rand in each test; default 1", "N");
     addNumber(
         command, "--shuffle", 0, true,
         [&settings](double seed) { settings.shuffle = static_cast<uint32_t>(seed); },
-        "another order of the tests, the same for the same number; default: as in the sources", "N");
+        "Random order of the tests, the same for the same number; default: as in the sources", "N");
     addNumber(
         command, "-j,--jobs", 1, true,
         [&settings](double jobs) { settings.jobs = static_cast<unsigned>(jobs); },
-        "tests at a time; default: as many as there are processors", "N");
+        "Tests at a time; default: as many as there are processors", "N");
 }
 
 } // namespace
@@ -382,20 +379,20 @@ void addTestCommand(rt::CommandLine& line) {
     command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
     command
         .add("--filter", settings->filters,
-             "only tests whose id MODULE.TEST contains this, or matches it with * and ?; "
+             "Only tests whose id MODULE.TEST contains this, or matches it with * and ?; "
              "!PATTERN leaves tests out; repeatable")
         .typeName("PATTERN")
         .oneValueEach();
-    command.addFlag("--list", settings->list, "show the tests and where they are; --format=json for editors");
-    command.add("--format", settings->format, "human, tap, junit or json")
+    command.addFlag("--list", settings->list, "Show the tests and where they are; --format=json for editors");
+    command.add("--format", settings->format, "Format of the results on standard output")
         .oneOf({"human", "tap", "junit", "json"});
-    command.add("--junit", settings->junit, "also write JUnit XML").typeName("FILE.xml");
-    command.add("--tap", settings->tap, "also write TAP").typeName("FILE.tap");
-    command.add("--json", settings->json, "also write JSON").typeName("FILE.json");
-    command.addFlag("--coverage", settings->coverage, "show how many statements the tests have executed");
-    command.add("--lcov", settings->lcov, "write the coverage as a trace file of lcov").typeName("FILE.info");
-    command.add("--coverage-page", settings->page, "write the coverage as a page").typeName("FILE.html");
-    command.addFlag("-v,--verbose", settings->verbose, "show what every test writes, and its events");
+    command.add("--junit", settings->junit, "Also write JUnit XML").typeName("FILE.xml");
+    command.add("--tap", settings->tap, "Also write TAP").typeName("FILE.tap");
+    command.add("--json", settings->json, "Also write JSON").typeName("FILE.json");
+    command.addFlag("--coverage", settings->coverage, "Show how many statements the tests have executed");
+    command.add("--lcov", settings->lcov, "Write the coverage as a trace file of lcov").typeName("FILE.info");
+    command.add("--coverage-page", settings->page, "Write the coverage as a page").typeName("FILE.html");
+    command.addFlag("-v,--verbose", settings->verbose, "Show what every test writes, and its events");
     addTaskOption(command, settings->inputs);
     addConfigOption(command, settings->inputs);
     addRobotOption(command, settings->inputs);

@@ -26,8 +26,7 @@ std::optional<Failure> Access::refusal(const Request& request, Domain domain) co
 
 Handler Access::guarded(Domain domain, Handler handler) const {
     return [this, domain, handler = std::move(handler)](const Request& request) {
-        if (const std::optional<Failure> failure = refusal(request, domain))
-            return Reply::refuse(failure->code, failure->message, failure->status);
+        if (const std::optional<Failure> failure = refusal(request, domain)) return Reply::refuse(*failure);
         return handler(request);
     };
 }

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
 
 #include <cstring>
 #include <fmt/format.h>

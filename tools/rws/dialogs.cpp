@@ -145,7 +145,7 @@ std::optional<std::string> answerOf(const rt::Dialog& dialog, const std::string&
     }
     const bool isQuoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
     if (given.size() > rt::kStringCapacity + (isQuoted ? 2 : 0)) return std::nullopt;
-    return isQuoted ? text : "\"" + given + "\""; // as it is, also when it is empty
+    return isQuoted ? text : "\"" + given + "\""; // as it is, even when it is empty
 }
 
 const Open* dialogOf(const std::vector<Open>& open, const Request& request) {

@@ -113,7 +113,7 @@ Reply EventLogPages::list(const Request& request) const {
     ListPage page;
     if (const auto failure = readListPage(request, total, kMostOnPage, page,
                                           request.dialect == Dialect::V2 && robotWare_ >= 8))
-        return Reply::refuse(failure->code, failure->message);
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;

@@ -113,7 +113,7 @@ Reply FileService::get(const Request& request) const {
     if (const FileResult listed = volumes_.list(path, entries); !listed.isDone()) return refuseFile(listed);
     ListPage page;
     if (const auto failure = readListPage(request, entries.size(), kMostOnPage, page))
-        return Reply::refuse(failure->code, failure->message);
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;

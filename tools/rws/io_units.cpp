@@ -39,7 +39,7 @@ Reply IoUnits::networks(const Request& request) const {
     const std::vector<std::string> names = devices().networkNames();
     ListPage page;
     if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
-        return Reply::refuse(failure->code, failure->message);
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
@@ -117,7 +117,7 @@ Reply IoUnits::listDevices(const Request& request) const {
         if (network.empty() || sameName(devices().networkOf(name), network)) names.push_back(std::move(name));
     ListPage page;
     if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
-        return Reply::refuse(failure->code, failure->message);
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;

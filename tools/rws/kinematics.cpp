@@ -1,6 +1,8 @@
 #include "tools/rws/kinematics.h"
 
 #include "config/letter_case.h"
+#include "runtime/robot/angles.h"
+#include "runtime/robot/lengths.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 
@@ -12,16 +14,14 @@ namespace rapidc::rws {
 
 namespace {
 
-constexpr double kDegrees = 57.295779513082320876798154814105; // of a radian
-constexpr double kMillimetres = 1000;                          // of a metre
-constexpr double kNotGiven = 8.9e9;                            // 9E9 and more: no axis
+constexpr double kNotGiven = 8.9e9; // 9E9 and more: no axis
 
 /// A joint of the arm in radians or metres, as clients have it, in degrees or mm.
 double fromClient(const robot::Kinematics& kinematics, std::size_t i, double value) {
-    return value * (kinematics.isLinear(i) ? kMillimetres : kDegrees);
+    return value * (kinematics.isLinear(i) ? robot::kMmPerMetre : robot::kDegreesPerRadian);
 }
 double toClient(const robot::Kinematics& kinematics, std::size_t i, double value) {
-    return value / (kinematics.isLinear(i) ? kMillimetres : kDegrees);
+    return value / (kinematics.isLinear(i) ? robot::kMmPerMetre : robot::kDegreesPerRadian);
 }
 
 /// Joints from two fields: 6 figures (axis 7 is the first of the external ones), or 7. None: they make no sense.
@@ -53,7 +53,8 @@ std::optional<motion::Pose> poseIn(const std::string& position, const std::strin
     if (!place || !turn) return std::nullopt;
     const robot::Quat rot{(*turn)[0], (*turn)[1], (*turn)[2], (*turn)[3]};
     if (std::fabs(norm(rot) - 1) > 0.01) return std::nullopt;
-    return motion::Pose{{(*place)[0] * kMillimetres, (*place)[1] * kMillimetres, (*place)[2] * kMillimetres},
+    return motion::Pose{{(*place)[0] * robot::kMmPerMetre, (*place)[1] * robot::kMmPerMetre,
+                         (*place)[2] * robot::kMmPerMetre},
                         robot::normalized(rot)};
 }
 
@@ -122,7 +123,7 @@ std::optional<Failure> readPose(const Request& request, motion::MotionSystem& sy
     }
     const auto external = numbersIn(fieldOf(request, "curr_ext_joints"), 6);
     if (kinematics.hasArmAngle() && external && (*external)[0] < kNotGiven)
-        out.armAngle = (*external)[0] * kDegrees;
+        out.armAngle = (*external)[0] * robot::kDegreesPerRadian;
     if (const std::string text = fieldOf(request, "robot_configuration"); !text.empty()) {
         const auto figures = numbersIn(text, 4);
         if (!figures) return fail("robot_configuration is [cf1,cf4,cf6,cfx]");
@@ -175,9 +176,9 @@ Reply Kinematics::poseFromJoints(const Request& request, const rt::MechanicalUni
     const robot::ConfData conf = kinematics.configuration(*joints);
     Document document;
     Entry& entry = document.add("position-from-joint", unit.name);
-    entry.value("position-x", shownExactly(tcp.pos.x / kMillimetres))
-        .value("position-y", shownExactly(tcp.pos.y / kMillimetres));
-    entry.value("position-z", shownExactly(tcp.pos.z / kMillimetres));
+    entry.value("position-x", shownExactly(tcp.pos.x / robot::kMmPerMetre))
+        .value("position-y", shownExactly(tcp.pos.y / robot::kMmPerMetre));
+    entry.value("position-z", shownExactly(tcp.pos.z / robot::kMmPerMetre));
     entry.value("robtargetorientation-u0", shownExactly(tcp.rot.w))
         .value("robtargetorientation-u1", shownExactly(tcp.rot.x));
     entry.value("robtargetorientation-u2", shownExactly(tcp.rot.y))
@@ -187,15 +188,14 @@ Reply Kinematics::poseFromJoints(const Request& request, const rt::MechanicalUni
     entry.value("quarter-rev-j6", fmt::format("{}", conf.cf6))
         .value("quarter-rev-jx", fmt::format("{}", conf.cfx));
     if (kinematics.hasArmAngle())
-        entry.value("arm-angle", shownExactly(kinematics.armAngle(*joints) / kDegrees));
+        entry.value("arm-angle", shownExactly(kinematics.armAngle(*joints) / robot::kDegreesPerRadian));
     return Reply::of(std::move(document));
 }
 
 Reply Kinematics::jointsFromPose(const Request& request, const rt::MechanicalUnit& unit) const {
     motion::MotionSystem& system = manual_.motionOf(unit).system();
     PoseRequest pose;
-    if (const auto failure = readPose(request, system, pose))
-        return Reply::refuse(failure->code, failure->message);
+    if (const auto failure = readPose(request, system, pose)) return Reply::refuse(*failure);
     const robot::Kinematics& kinematics = system.kinematics();
     auto joints = kinematics.inverseNear(pose.flange, pose.seed, pose.armAngle);
     if (pose.configuration) {
@@ -211,8 +211,7 @@ Reply Kinematics::jointsFromPose(const Request& request, const rt::MechanicalUni
 Reply Kinematics::allSolutions(const Request& request, const rt::MechanicalUnit& unit) const {
     motion::MotionSystem& system = manual_.motionOf(unit).system();
     PoseRequest pose;
-    if (const auto failure = readPose(request, system, pose))
-        return Reply::refuse(failure->code, failure->message);
+    if (const auto failure = readPose(request, system, pose)) return Reply::refuse(*failure);
     const robot::Kinematics& kinematics = system.kinematics();
     robot::IkBranches branches;
     kinematics.inverseAll(pose.flange, pose.seed, branches, pose.armAngle);

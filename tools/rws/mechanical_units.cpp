@@ -235,8 +235,7 @@ std::optional<Failure> MechanicalUnits::poseFor(const Request& request, const Un
 
 Reply MechanicalUnits::robTarget(const Request& request, const Unit& unit) const {
     motion::RobTarget target;
-    if (const auto failure = poseFor(request, unit, target))
-        return Reply::refuse(failure->code, failure->message, failure->status);
+    if (const auto failure = poseFor(request, unit, target)) return Reply::refuse(*failure);
     Document document;
     Entry& entry = document.add("ms-robtargets", unit.name);
     addPose(target.pose, entry);
@@ -253,8 +252,7 @@ Reply MechanicalUnits::robTarget(const Request& request, const Unit& unit) const
 
 Reply MechanicalUnits::cartesian(const Request& request, const Unit& unit) const {
     motion::RobTarget target;
-    if (const auto failure = poseFor(request, unit, target))
-        return Reply::refuse(failure->code, failure->message, failure->status);
+    if (const auto failure = poseFor(request, unit, target)) return Reply::refuse(*failure);
     Document document;
     Entry& entry = document.add("ms-mechunit-cartesian", unit.name);
     addPose(target.pose, entry);

@@ -23,15 +23,11 @@ constexpr const char* kOld = "/rw/rapid/modules/{module}";
 constexpr const char* kNewList = "/rw/rapid/tasks/{task}/modules";
 constexpr const char* kNew = "/rw/rapid/tasks/{task}/modules/{module}";
 
-std::string field(const Request& request, const char* name) {
-    return request.query.has(name) ? request.query.text(name) : request.form.text(name);
-}
-
 /// From startrow, startcol, endrow, endcol. None: they make no sense.
 std::optional<TextRange> rangeOf(const Request& request) {
     TextRange range;
     const auto read = [&](const char* name, int64_t otherwise, int64_t& into) {
-        const std::string text = field(request, name);
+        const std::string text = fieldOf(request, name);
         const auto number = text.empty() ? otherwise : wholeIn(text, -1, 10'000'000);
         into = number.value_or(0);
         return number && *number != 0;

@@ -17,7 +17,6 @@ using service::Change;
 using service::PointerPlace;
 
 constexpr const char* kPath = "/rw/rapid/tasks/{task}/pcp";
-constexpr int64_t kMostLines = 10'000'000;
 
 std::string position(uint32_t line, uint32_t column) {
     return line == 0 ? std::string() : fmt::format("{},{}", line, column);
@@ -150,7 +149,7 @@ Reply ProgramPointers::toCursor(const Request& request) {
     const std::string module = request.form.text("module");
     std::string row = request.form.text("begin-position-row");
     if (row.empty()) row = request.form.text("line");
-    const auto line = wholeIn(row, 1, kMostLines);
+    const auto line = wholeIn(row, 1, kMostLine);
     if (module.empty()) return badParameter("module", "the name of a module");
     if (!line) return badParameter("begin-position-row", "the number of a line");
     if (controller_.core().tables().findModule(static_cast<int32_t>(task->index()), module) == nullptr)

@@ -21,10 +21,6 @@ using rapid::config::sameName;
 
 constexpr const char* kPath = "/rw/rapid/tasks/{task}/program";
 
-std::string field(const Request& request, const char* name) {
-    return request.query.has(name) ? request.query.text(name) : request.form.text(name);
-}
-
 std::string programFile(const std::vector<std::string>& files) {
     std::string text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\n<Program>\n";
     for (const std::string& file : files)
@@ -208,8 +204,8 @@ Reply Programs::listBreaks(const Request& request) {
 Reply Programs::setBreak(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    const std::string module = field(request, "module"), columnText = field(request, "column");
-    const auto row = wholeIn(field(request, "row"), 1, 10'000'000);
+    const std::string module = fieldOf(request, "module"), columnText = fieldOf(request, "column");
+    const auto row = wholeIn(fieldOf(request, "row"), 1, 10'000'000);
     const auto column = columnText.empty() ? 1 : wholeIn(columnText, 0, 10'000'000);
     if (!row) return badParameter("row", "the number of a line");
     if (!column) return badParameter("column", "a number");
@@ -231,8 +227,9 @@ Reply Programs::setBreak(const Request& request) {
 Reply Programs::removeBreak(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
-    const auto row = wholeIn(field(request, "row"), 1, 10'000'000);
-    if (!row || breakpoints_.remove(task->name(), field(request, "module"), static_cast<uint32_t>(*row)) == 0)
+    const auto row = wholeIn(fieldOf(request, "row"), 1, 10'000'000);
+    if (!row ||
+        breakpoints_.remove(task->name(), fieldOf(request, "module"), static_cast<uint32_t>(*row)) == 0)
         return badParameter("module or row", "the place of a breakpoint");
     return Reply::done();
 }

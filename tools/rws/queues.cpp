@@ -23,10 +23,6 @@ constexpr std::size_t kLargestMessage = 65536; // bytes
 constexpr std::size_t kLongestName = 80;
 constexpr double kLongestWait = 10; // s; a worker waits meanwhile
 
-std::string field(const Request& request, const char* name) {
-    return request.query.has(name) ? request.query.text(name) : request.form.text(name);
-}
-
 constexpr rt::TypeDesc kBasic[] = {
     {"num", "num", rt::DescKind::Num, 4, 0, {}, nullptr, nullptr, nullptr},
     {"dnum", "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr, nullptr, nullptr},
@@ -269,7 +265,7 @@ Reply Queues::read(const Request& request) {
         return Reply::refuse(ReturnCode::NotFound,
                              "There is no queue of a client named " + request.parameter("queue"));
     double seconds = 0;
-    const std::string text = field(request, request.dialect == Dialect::V1 ? "timeout" : "dipc-timeout");
+    const std::string text = fieldOf(request, request.dialect == Dialect::V1 ? "timeout" : "dipc-timeout");
     if (!text.empty() && (!rt::parseRapidNumber(text, seconds) || !(seconds >= 0) || !std::isfinite(seconds)))
         return badParameter("timeout", "a positive number");
     if (request.dialect == Dialect::V2) seconds /= 1000;

@@ -76,22 +76,4 @@ std::optional<VolumePath> volumePath(const service::VirtualController& controlle
     return result;
 }
 
-std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit) {
-    const auto field = [&](const char* name) {
-        return request.query.has(name) ? request.query.text(name) : request.form.text(name);
-    };
-    Page page{0, standardLimit};
-    if (const std::string text = field("start"); !text.empty()) {
-        const auto start = wholeIn(text, 0, INT32_MAX);
-        if (!start) return std::nullopt;
-        page.start = static_cast<std::size_t>(*start);
-    }
-    if (const std::string text = field("limit"); !text.empty()) {
-        const auto limit = wholeIn(text, 1, INT32_MAX);
-        if (!limit) return std::nullopt;
-        page.limit = std::min(static_cast<std::size_t>(*limit), mostLimit);
-    }
-    return page;
-}
-
 } // namespace rapidc::rws

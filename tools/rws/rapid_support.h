@@ -30,6 +30,9 @@ inline const char* boolText(bool value) {
 void addOrder(Router& router, const std::string& pattern, const char* oldName, const char* newName,
               const Handler& handler);
 
+/// Lines of modules in requests: at most.
+inline constexpr int64_t kMostLine = 10'000'000;
+
 /// The task that the parameter, the query or the form names "task"; null: there is none.
 rt::Task* taskOf(service::VirtualController& controller, const Request& request);
 /// 400 or 404 because of that.
@@ -42,12 +45,5 @@ struct VolumePath {
 };
 /// "$HOME/x", "HOME/x", "HOME:/x", "HOME:x", "/fileservice/$HOME/x". None: it leads out of the volumes, or names none.
 std::optional<VolumePath> volumePath(const service::VirtualController& controller, std::string_view path);
-
-/// A page of a list.
-struct Page {
-    std::size_t start = 0, limit = 0;
-};
-/// From the fields "start" and "limit" of the query or the form. None: they make no sense.
-std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit);
 
 } // namespace rapidc::rws

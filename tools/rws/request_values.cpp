@@ -98,20 +98,25 @@ std::string escapedSegment(std::string_view segment) {
     return http::encodePercent(segment, "-._~$");
 }
 
+std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit) {
+    const std::string startText = fieldOf(request, "start"), limitText = fieldOf(request, "limit");
+    const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
+    const auto limit = limitText.empty() ? std::optional(standardLimit) : countIn(limitText);
+    if (!start || !limit || *limit == 0) return std::nullopt;
+    return Page{*start, std::min(*limit, mostLimit)};
+}
+
 std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
                                     ListPage& page, bool countsPages) {
-    const std::string startText = request.query.text("start"), limitText = request.query.text("limit");
-    auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);
-    const auto limit = limitText.empty() ? std::optional(most) : countIn(limitText);
-    if (!start || !limit || *limit == 0)
-        return Failure{ReturnCode::BadPage, "start is a number from 0, limit one from 1", 0};
-    const std::size_t size = std::min(*limit, most);
-    if (countsPages) *start = *start == 0 ? 0 : std::min(*start - 1, total) * size;
-    if (*start > 0 && *start >= total)
+    const std::optional<Page> asked = readPage(request, most, most);
+    if (!asked) return Failure{ReturnCode::BadPage, "start is a number from 0, limit one from 1", 0};
+    auto [start, size] = *asked;
+    if (countsPages) start = start == 0 ? 0 : std::min(start - 1, total) * size;
+    if (start > 0 && start >= total)
         return Failure{ReturnCode::BadPage,
-                       fmt::format("start is {}, but there are {} entries", *start, total), 0};
-    page.begin = *start;
-    page.end = std::min(total, *start + size);
+                       fmt::format("start is {}, but there are {} entries", start, total), 0};
+    page.begin = start;
+    page.end = std::min(total, start + size);
     if (page.end == total) return std::nullopt;
     for (const std::string& segment : request.segments)
         page.next += '/' + escapedSegment(segment);

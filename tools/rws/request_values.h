@@ -30,13 +30,21 @@ std::string shown(double value);
 /// With all the digits that a double has, for results in metres and radians.
 std::string shownExactly(double value);
 
-/// A part of a list: ?start= (number of the first one, from 0) and ?limit=.
+/// The fields "start" (from 0) and "limit" of a request for a part of a list.
+struct Page {
+    std::size_t start = 0, limit = 0;
+};
+/// `standardLimit` applies without a limit; a larger one than `mostLimit` is reduced to it. None: a field is not a count, or the limit
+/// is 0.
+std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit);
+
+/// A page within a list of known length.
 struct ListPage {
     std::size_t begin = 0, end = 0; ///< of the entries
     std::string next;               ///< href of the next page; "" = none
 };
-/// The page that a request asks for, of a list of `total` entries. Never more than `most` entries; a limit of 0 and a start that
-/// is not a number are failures. `countsPages`: start is the number of the page, from 1.
+/// The page (readPage) of a list of `total` entries, at most `most` of them. Failures: an invalid field, a start after the end.
+/// `countsPages`: start is the number of the page, from 1.
 std::optional<Failure> readListPage(const Request& request, std::size_t total, std::size_t most,
                                     ListPage& page, bool countsPages = false);
 

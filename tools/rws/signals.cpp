@@ -18,10 +18,6 @@ constexpr std::size_t kMostOnPage = 100;
 constexpr const char* kSimulated = "simulated";
 constexpr const char* kNotSimulated = "not simulated";
 
-Reply fail(const Failure& failure) {
-    return Reply::refuse(failure.code, failure.message, failure.status);
-}
-
 /// "A/b/c" as segments after the path of all signals.
 std::string hrefOf(const std::string& title) {
     std::string href = "/rw/iosystem/signals";
@@ -90,7 +86,8 @@ std::optional<Failure> Signals::find(const Request& request, rt::SignalId& signa
 
 Reply Signals::list(const Request& request, const std::vector<rt::SignalId>& signals) const {
     ListPage page;
-    if (const auto failure = readListPage(request, signals.size(), kMostOnPage, page)) return fail(*failure);
+    if (const auto failure = readListPage(request, signals.size(), kMostOnPage, page))
+        return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
@@ -108,7 +105,7 @@ Reply Signals::listAll(const Request& request) const {
 
 Reply Signals::one(const Request& request) const {
     rt::SignalId signal = -1;
-    if (const auto failure = find(request, signal)) return fail(*failure);
+    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     const rt::SignalConfig& config = io().config(signal);
@@ -123,7 +120,7 @@ Reply Signals::one(const Request& request) const {
 
 Reply Signals::configuration(const Request& request) const {
     rt::SignalId signal = -1;
-    if (const auto failure = find(request, signal)) return fail(*failure);
+    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
     const rt::SignalConfig& config = io().config(signal);
     Document document;
     document.place = Document::Place::Resources;
@@ -209,7 +206,7 @@ std::optional<Failure> Signals::simulate(rt::SignalId signal, bool on) {
 
 Reply Signals::set(const Request& request) {
     rt::SignalId signal = -1;
-    if (const auto failure = find(request, signal)) return fail(*failure);
+    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
     const std::string mode = fieldOf(request, "mode"), value = fieldOf(request, "lvalue");
     if (value.empty() && mode.empty() && !fieldOf(request, "lstate").empty()) return setState(request);
     if (!mode.empty() && !sameName(mode, "value") && !sameName(mode, kSimulated))
@@ -218,21 +215,21 @@ Reply Signals::set(const Request& request) {
     if (value.empty() && !simulates) return Reply::refuse(ReturnCode::BadParameter, "lvalue is missing");
     const bool wasSimulated = io().isSimulated(signal);
     if (simulates)
-        if (const auto failure = simulate(signal, true)) return fail(*failure);
+        if (const auto failure = simulate(signal, true)) return Reply::refuse(*failure);
     if (value.empty()) return Reply::done();
     const auto failure = setValue(signal, value);
     if (failure && simulates && !wasSimulated) (void)simulate(signal, false); // refused: nothing has changed
-    return failure ? fail(*failure) : Reply::done();
+    return failure ? Reply::refuse(*failure) : Reply::done();
 }
 
 Reply Signals::setState(const Request& request) {
     rt::SignalId signal = -1;
-    if (const auto failure = find(request, signal)) return fail(*failure);
+    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
     const std::string state = fieldOf(request, "lstate");
     if (!sameName(state, kSimulated) && !sameName(state, kNotSimulated))
         return Reply::refuse(ReturnCode::BadParameter, "lstate is 'simulated' or 'not simulated'");
     const auto failure = simulate(signal, sameName(state, kSimulated));
-    return failure ? fail(*failure) : Reply::done();
+    return failure ? Reply::refuse(*failure) : Reply::done();
 }
 
 Reply Signals::endAllSimulations(const Request&) {

@@ -1,5 +1,5 @@
 #pragma once
-// Subscriptions to states of the controller: an observer reads the state anew whenever it may have changed.
+// Subscriptions to states of the controller: an observer reads the state again whenever it may have changed.
 
 #include "tools/rws/subscribable.h"
 #include "tools/service/observers.h"

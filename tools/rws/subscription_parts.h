@@ -7,8 +7,8 @@
 
 namespace rapidc::rws {
 
-/// A resource that a client wishes to subscribe to, as it wrote it.
-struct Subscriptions::Wish {
+/// A resource that a client requested to subscribe to, as it wrote it.
+struct Subscriptions::Requested {
     std::string text;
     int priority = 1;
 };

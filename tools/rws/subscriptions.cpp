@@ -108,7 +108,8 @@ void Subscriptions::addTo(Router& router) {
                     }});
 }
 
-std::optional<Failure> Subscriptions::readWishes(const Request& request, std::vector<Wish>& wishes) const {
+std::optional<Failure> Subscriptions::readRequested(const Request& request,
+                                                    std::vector<Requested>& requested) const {
     std::unordered_map<std::string, const std::string*> fields; // a form may have thousands
     for (const auto& [name, value] : request.form.all())
         fields.emplace(rapid::config::lowerCase(name), &value);
@@ -118,19 +119,19 @@ std::optional<Failure> Subscriptions::readWishes(const Request& request, std::ve
     };
     for (const std::string& id : resourceIds(request.form)) {
         const std::string* text = valueOf(id);
-        Wish wish{text ? *text : "", 1};
-        if (wish.text.empty())
+        Requested one{text ? *text : "", 1};
+        if (one.text.empty())
             return bad(fmt::format("The form has no field '{}' with the path of a resource.", id));
         if (const std::string* priority = valueOf(id + "-p")) {
             if (*priority != "0" && *priority != "1" && *priority != "2")
                 return bad("The priority is 0, 1 or 2.");
-            wish.priority = (*priority)[0] - '0';
+            one.priority = (*priority)[0] - '0';
         }
-        wishes.push_back(std::move(wish));
-        if (wishes.size() > kMostResources)
+        requested.push_back(std::move(one));
+        if (requested.size() > kMostResources)
             return bad(fmt::format("A group has at most {} resources.", kMostResources));
     }
-    if (wishes.empty()) return bad("The form names no resources.");
+    if (requested.empty()) return bad("The form names no resources.");
     return std::nullopt;
 }
 
@@ -141,9 +142,8 @@ Reply Subscriptions::create(const Request& request) {
     if (static_cast<std::size_t>(mine) >= kMostGroups)
         return Reply::refuse(ReturnCode::Rejected,
                              fmt::format("A session has at most {} groups.", kMostGroups), 400);
-    std::vector<Wish> wishes;
-    if (const auto failure = readWishes(request, wishes))
-        return Reply::refuse(failure->code, failure->message, failure->status);
+    std::vector<Requested> requested;
+    if (const auto failure = readRequested(request, requested)) return Reply::refuse(*failure);
     auto group = std::make_unique<Group>();
     group->id = ++lastGroup_;
     group->session = request.session->number;
@@ -152,11 +152,11 @@ Reply Subscriptions::create(const Request& request) {
     group->outlet->session = group->session;
     group->outlet->dialect = request.dialect;
     Document document;
-    const auto failure = subscribe(request, *group, wishes, document.entries);
+    const auto failure = subscribe(request, *group, requested, document.entries);
     if (failure) {
         for (const auto& [text, resource] : group->resources)
             disconnect(resource.topic, group->outlet);
-        return Reply::refuse(failure->code, failure->message, failure->status);
+        return Reply::refuse(*failure);
     }
     document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
     document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
@@ -173,24 +173,24 @@ Reply Subscriptions::create(const Request& request) {
 Reply Subscriptions::change(const Request& request) {
     Group* group = groupOf(request);
     if (!group) return Reply::refuse(ReturnCode::NotFound, "There is no such group of subscriptions.");
-    std::vector<Wish> wishes;
-    auto failure = readWishes(request, wishes);
+    std::vector<Requested> requested;
+    auto failure = readRequested(request, requested);
     Document document;
-    if (!failure) failure = subscribe(request, *group, wishes, document.entries);
-    if (failure) return Reply::refuse(failure->code, failure->message, failure->status);
+    if (!failure) failure = subscribe(request, *group, requested, document.entries);
+    if (failure) return Reply::refuse(*failure);
     document.self = fmt::format("{}/poll/{}", socketBaseOf(request.base), group->id);
     document.links.emplace_back("group", fmt::format("subscription/{}", group->id));
     return Reply::of(std::move(document), 200);
 }
 
 std::optional<Failure> Subscriptions::subscribe(const Request& request, Group& group,
-                                                const std::vector<Wish>& wishes,
+                                                const std::vector<Requested>& requested,
                                                 std::vector<Entry>& initial) {
     std::map<std::string, int> priorities;
     for (const auto& [text, resource] : group.resources)
         priorities[text] = resource.priority;
-    for (const Wish& wish : wishes)
-        priorities[wish.text] = wish.priority;
+    for (const Requested& one : requested)
+        priorities[one.text] = one.priority;
     const auto immediate = std::count_if(priorities.begin(), priorities.end(),
                                          [](const auto& each) { return each.second == 2; });
     if (static_cast<std::size_t>(immediate) > kMostImmediate)
@@ -200,18 +200,18 @@ std::optional<Failure> Subscriptions::subscribe(const Request& request, Group& g
     // All or nothing: first open, then connect.
     std::vector<std::shared_ptr<Topic>> topics;
     std::optional<Failure> failure;
-    for (const Wish& wish : wishes) {
+    for (const Requested& one : requested) {
         std::shared_ptr<Topic> topic;
-        failure = openTopic(request, wish.text, topic, initial);
+        failure = openTopic(request, one.text, topic, initial);
         if (failure) break;
         topics.push_back(std::move(topic));
     }
-    for (std::size_t i = 0; !failure && i < wishes.size(); ++i) {
-        const auto found = group.resources.find(wishes[i].text);
+    for (std::size_t i = 0; !failure && i < requested.size(); ++i) {
+        const auto found = group.resources.find(requested[i].text);
         if (found != group.resources.end()) detach(*found->second.topic, group.outlet); // its watch stays
-        connect(*topics[i], group.outlet, wishes[i].priority);
-        group.resources[wishes[i].text] = {topics[i], wishes[i].priority};
-        topics_[{request.dialect, wishes[i].text}] = topics[i];
+        connect(*topics[i], group.outlet, requested[i].priority);
+        group.resources[requested[i].text] = {topics[i], requested[i].priority};
+        topics_[{request.dialect, requested[i].text}] = topics[i];
     }
     for (const std::shared_ptr<Topic>& topic : topics)
         closeIfUnused(topic);

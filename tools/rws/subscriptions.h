@@ -52,7 +52,7 @@ class Subscriptions final : public SocketGate {
     struct Outlet;
     struct Topic;
     struct Group;
-    struct Wish;
+    struct Requested;
     class Listener;
     struct Event {
         std::shared_ptr<Topic> topic;
@@ -67,9 +67,9 @@ class Subscriptions final : public SocketGate {
     Reply removeResource(const Request& request);
     Reply show(const Request& request);
     Group* groupOf(const Request& request);
-    std::optional<Failure> readWishes(const Request& request, std::vector<Wish>& wishes) const;
-    std::optional<Failure> subscribe(const Request& request, Group& group, const std::vector<Wish>& wishes,
-                                     std::vector<Entry>& initial);
+    std::optional<Failure> readRequested(const Request& request, std::vector<Requested>& requested) const;
+    std::optional<Failure> subscribe(const Request& request, Group& group,
+                                     const std::vector<Requested>& requested, std::vector<Entry>& initial);
     std::optional<Failure> openTopic(const Request& request, const std::string& text,
                                      std::shared_ptr<Topic>& topic, std::vector<Entry>& initial);
     void connect(Topic& topic, const std::shared_ptr<Outlet>& outlet, int priority);

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "config/temporary.h"
+#include "stdlib/impl/files/placed_file.h"
 #include "tools/service/folder_work.h"
 
 #include <fmt/format.h>
@@ -187,7 +188,7 @@ FileResult FileVolumes::write(const std::string& path, std::string_view bytes, b
         uint64_t{disk.f_bavail} * disk.f_frsize < bytes.size() + kRoomLeft)
         return {FileProblem::TooLarge,
                 fmt::format("the disk of {} has no room for {} bytes", path, bytes.size())};
-    if (const int error = replaceIn(place.folder.number(), place.name, bytes); error != 0)
+    if (const int error = rt::lib::replaceWhole(place, bytes); error != 0)
         return {error == ENOSPC ? FileProblem::TooLarge : FileProblem::Failed,
                 fmt::format("{}: {}", path, std::strerror(error))};
     return done();

@@ -30,7 +30,7 @@ constexpr std::size_t kBlock = std::size_t{1} << 18;
 /// As config::TemporaryFile names them, so that leftovers are recognised.
 std::string unfinishedName() {
     static std::atomic<unsigned> last = 0;
-    return fmt::format(".upload.rapidc-{}-{:06}.tmp", ::getpid(), ++last % 1'000'000);
+    return fmt::format(".copy.rapidc-{}-{:06}.tmp", ::getpid(), ++last % 1'000'000);
 }
 
 int openNew(int folder, const std::string& name, Descriptor& file) {
@@ -121,24 +121,6 @@ bool namesIn(int folder, std::vector<std::string>& names) {
 
 bool isUnfinished(std::string_view name) {
     return name.starts_with('.') && name.find(".rapidc-") != std::string_view::npos;
-}
-
-int replaceIn(int folder, const std::string& name, std::string_view bytes) {
-    const std::string temporary = unfinishedName();
-    Descriptor file;
-    int error = openNew(folder, temporary, file);
-    if (error != 0) return error;
-    error = writeAll(file.number(), bytes);
-    if (error == 0 && ::fsync(file.number()) != 0) error = errno;
-    if (error == 0 && ::renameat(folder, temporary.c_str(), folder, name.c_str()) != 0) error = errno;
-    if (error != 0) {
-        ::unlinkat(folder, temporary.c_str(), 0);
-        return error;
-    }
-    const Descriptor readable(
-        ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)); // `folder` may be a mere path
-    if (readable.isOpen()) ::fsync(readable.number());
-    return 0;
 }
 
 int removeIn(int folder, const std::string& name) {

@@ -13,8 +13,6 @@ bool namesIn(int folder, std::vector<std::string>& names);
 /// The name of a temporary file or folder of this program: what was not finished.
 bool isUnfinished(std::string_view name);
 
-/// Writes a file next to `name`, flushes it to the disk and renames it.
-int replaceIn(int folder, const std::string& name, std::string_view bytes);
 /// Removes a file, a link, or a folder with all that it holds.
 int removeIn(int folder, const std::string& name);
 /// Copies a file or a folder with all that it holds, beside it. Links in it are left out. The copy is complete or absent.

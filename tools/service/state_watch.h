@@ -21,7 +21,7 @@ class StateWatch {
 
     /// Between the tasks, often.
     void look();
-    /// Everything is looked at anew: there is another controller.
+    /// Everything is looked at again: there is another controller.
     void forget() { tasks_.clear(), dialogs_.clear(); }
 
   private:

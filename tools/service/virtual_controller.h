@@ -79,7 +79,7 @@ class VirtualController {
     void onRelease(std::function<void()> action) { release_ = std::move(action); }
     /// Called before the compilation of a restart: may choose other files of the configuration.
     void onInputs(std::function<void(Inputs&)> action) { chooseInputs_ = std::move(action); }
-    /// The files of the configuration are other ones now: the next restart compiles anew.
+    /// The files of the configuration are other ones now: the next restart compiles again.
     void noteConfiguration() { isConfigurationChanged_ = true; }
     /// The folder of the host that a volume is, e.g. "HOME"; "" when there is none of this name.
     std::string folderOf(const std::string& volume);
@@ -161,7 +161,7 @@ class VirtualController {
     /// Replacement of the present controller.
     struct Succession {
         std::unique_ptr<LoadedProgram> program; ///< null: the same
-        std::string state;                      ///< "" = everything begins anew
+        std::string state;                      ///< "" = everything begins again
         std::map<std::string, double> signals;  ///< values that stay
         bool powerOn = true;
         bool programStart = false, motorsOn = false;

@@ -27,8 +27,6 @@ constexpr const char* kEmptyProgram = "empty_program.sysx";
 constexpr const char* kEmptyText =
     "MODULE EmptyProgram(SYSMODULE, NOVIEW)\n  PROC main()\n  ENDPROC\nENDMODULE\n";
 
-constexpr std::uintmax_t kLargestModule = std::uintmax_t{20} << 20; // bytes
-
 /// The file of the compiled program that holds the module, and how many modules it holds; null when there is none.
 std::shared_ptr<const rapid::SourceFile> fileOf(const ProgramSources& sources, const rt::Task& task,
                                                 const std::string& module, std::size_t& modules) {
@@ -128,7 +126,8 @@ Refusal VirtualController::loadModule(rt::Task& task, const std::string& path, c
                                       bool replace) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) return fmt::format("there is no file {}", shown);
-    if (fs::file_size(path, code) > kLargestModule) return fmt::format("{} is too large for a module", shown);
+    if (fs::file_size(path, code) > rt::kLargestModule)
+        return fmt::format("{} is too large for a module", shown);
     std::string bytes;
     if (const std::string problem = rapid::config::readFile(path, bytes); !problem.empty())
         return fmt::format("{} cannot be read: {}", shown, problem);
@@ -172,7 +171,7 @@ Refusal VirtualController::loadProgram(rt::Task& task, const std::vector<std::st
         std::string bytes;
         const std::string name = fs::path(file).filename().string();
         std::error_code code;
-        if (fs::file_size(file, code) > kLargestModule || code)
+        if (fs::file_size(file, code) > rt::kLargestModule || code)
             return fmt::format("{} cannot be read, or is too large for a module", name);
         if (const std::string problem = rapid::config::readFile(file, bytes); !problem.empty())
             return fmt::format("{} cannot be read: {}", name, problem);

@@ -22,7 +22,7 @@ struct Totals {
 };
 Totals totalsOf(const std::vector<Finished>& results);
 
-/// One test for people, with line ends. `withOutput`: what it wrote, also when it passed.
+/// One test for people, with line ends. `withOutput`: what it wrote, even when it passed.
 std::string humanText(const TestCase& test, const TestResult& result, bool withOutput, bool colour);
 /// "5 tests: 3 passed, 1 failed, 1 skipped", with line end.
 std::string humanTotals(const Totals& totals);

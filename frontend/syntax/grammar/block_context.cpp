@@ -9,16 +9,6 @@ namespace rapid::syntax {
 
 using diag::Code;
 
-namespace {
-
-/// A routine has ended before these.
-constexpr TokenSet kAfterRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
-                                    TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
-constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
-                                 TokenKind::KwEndtest};
-
-} // namespace
-
 /// The opener of the innermost block around this one that a word belongs to; kNoToken when there is none.
 TokenIndex BlockContext::outerOpenerOf(K word) const {
     struct Family {
@@ -111,10 +101,8 @@ TokenKind BlockContext::endOfRoutineBelow() const {
 
 void BlockContext::countEndifs() {
     if (std::exchange(endifsCounted, true)) return;
-    constexpr TokenSet kStop = {K::KwEndproc, K::KwEndfunc,   K::KwEndtrap, K::KwProc,   K::KwFunc,
-                                K::KwTrap,    K::KwEndmodule, K::KwModule,  K::EndOfFile};
     missingEndifs = 0;
-    for (TokenIndex i = routineStart; !kStop.has(kindAt(i)); ++i) {
+    for (TokenIndex i = routineStart; !kRoutineBorders.has(kindAt(i)); ++i) {
         TokenIndex then = 0;
         if (kindAt(i) == K::KwIf && ahead().findOnLine(i + 1, K::KwThen, then)) ++missingEndifs;
         if (kindAt(i) == K::KwEndif) --missingEndifs;

@@ -6,7 +6,7 @@
 namespace rapid::syntax {
 
 /// The routine and the blocks around the current token, and what margins and END words below say about them.
-/// parseRoutine() starts it anew; blocks restore what they change.
+/// parseRoutine() starts it again; blocks restore what they change.
 class BlockContext : public ParserPart {
   public:
     using ParserPart::ParserPart;

@@ -79,8 +79,7 @@ bool BlockParser::isBlockByMargin(TokenIndex opening) {
     constexpr TokenIndex kSearch = 500;
     for (TokenIndex i = first; i < first + kSearch && i < lastToken(); ++i) {
         if (!startsLine(i) || columnOf(i) > margin) continue;
-        constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};
-        if (i == first || columnOf(i) != margin || !kOfIf.has(kindAt(i))) return false;
+        if (i == first || columnOf(i) != margin || !kIfWords.has(kindAt(i))) return false;
         ++block().missingEndifs;
         const SourceRange place = first == pos() ? endOf(pos() - 1) : range(pos());
         diag::Diagnostic* diagnostic = reportAt(say::MissingBlockWord, place, {describe(pos()), "THEN"});

@@ -67,7 +67,6 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
         take();
     }
     if (kind() != K::Semicolon && kind() != K::Assign) torn().takeTornName(node->name, kAfterName);
-    constexpr TokenSet kLiterals = {K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
     const bool literal = kLiterals.has(kind()) && !startsLine(pos()) && peek() == K::Semicolon;
     const bool valueFollows =
         !panic() && (literal || (kind() == K::LeftBracket && ahead().valueWithoutSign(node->dataKind)));

@@ -159,7 +159,6 @@ bool Lookahead::isEqualForColon() const {
 }
 
 bool Lookahead::missesCondition() const {
-    constexpr TokenSet kLiterals = {K::NumLiteral, K::StringLiteral, K::KwTrue, K::KwFalse};
     TokenIndex then = 0;
     if (!isName(kind()) || startsLine(pos()) || startsLine(pos() + 1)) return false;
     const bool call = kLiterals.has(peek()) || (isName(peek()) && peek(2) == K::Comma);

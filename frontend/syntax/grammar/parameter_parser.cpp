@@ -193,10 +193,9 @@ void ParameterParser::parseDimensions(ParamDecl* param) {
         param->rank = 1;
         return;
     }
-    constexpr uint8_t kPlaceholderRank = 255;
     constexpr uint8_t kMostStars = 254;
     if (accept(K::PlaceDim)) {
-        param->rank = kPlaceholderRank;
+        param->rank = ParamDecl::kPlaceholderRank;
     } else if (kind() == K::RightBrace) {
         fix(report(say::UnexpectedToken, pos(), {describe(pos()), "'*'"}), endOf(opening), "*");
         param->rank = 1;

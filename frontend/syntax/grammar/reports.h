@@ -17,7 +17,7 @@ enum class Mark : uint8_t {
     SignAfterOperator,      ///< a sign after an operator; another one after it is the same mistake
     StrayEnd,               ///< a word for END that ends nothing
     BrokenHead,             ///< a THEN or DO whose IF, FOR or WHILE could not be read
-    WrongEnd,               ///< an END word that closes a block of another kind
+    WrongEnd,               ///< an END word that closes a block of a different kind
     SwitchWithoutBackslash, ///< a parameter
     ForeignList,            ///< the bracket of a list that another language writes so
     RunTogether,            ///< the word of a declaration that what follows has run into
@@ -30,7 +30,7 @@ enum class Mark : uint8_t {
 
 /// Reports one diagnostic for each mistake. A mistake is a range of the text and a cause; what follows from it is not
 /// reported:
-/// 1. after a mistake nothing is, until the parser has found firm ground (panic);
+/// 1. after a mistake nothing is, until the parser has found a place to continue from (panic);
 /// 2. nothing about words that the lexer could not read, or in a line in which a '"' is missing;
 /// 3. nothing that only says which words are expected, within a few words of others that could not be read;
 /// 4. nothing at a token that is marked for the same cause.
@@ -40,7 +40,7 @@ class Reports {
     Reports(TokenCursor& in, diag::Sink& sink, LexicalMistakes& lexical, TornWords& torn)
         : in_(in), sink_(sink), lexical_(lexical), torn_(torn) {}
 
-    /// Null when it follows from what was reported. The pointer is good until the next report.
+    /// Null when it follows from what was reported. The pointer is valid until the next report.
     template <size_t N>
     diag::Diagnostic* reportAt(diag::Message<N> message, SourceRange range, diag::MessageArgs<N> args) {
         return reportCode(message.code, range, args);
@@ -61,7 +61,7 @@ class Reports {
     diag::Diagnostic* reportCode(diag::Code code, SourceRange range, std::span<const std::string> args);
     /// "found X, expected Y" where an expression has ended.
     diag::Diagnostic* reportAfterExpr(diag::Message<2> message, diag::MessageArgs<2> args);
-    /// "found 'p Pick', expected 'pPick'"; the checker then says nothing of that line.
+    /// "found 'p Pick', expected 'pPick'"; the checker then reports nothing about that line.
     diag::Diagnostic* reportWord(SourceRange range, const std::string& whole, bool certain);
     /// Nesting deeper than kMaxDepth, and panic.
     void reportTooDeep();

@@ -1,6 +1,7 @@
 #pragma once
 // Groups of tokens by their place in the grammar, and how far searches go.
 
+#include "frontend/syntax/limits.h"
 #include "frontend/syntax/token_set.h"
 
 namespace rapid::syntax {
@@ -9,7 +10,6 @@ inline constexpr uint32_t kMaxDepth = 1000; ///< nesting of expressions and inst
 inline constexpr size_t kMaxErrorsPerFile = 200;
 inline constexpr size_t kMostWords =
     20000000; ///< words of the file that are compared, in all searches together
-inline constexpr size_t kMaxNameLength = 32; // manual 1.1.2
 
 /// Words at which a list of instructions has to stop and think.
 inline constexpr TokenSet kListStops = {
@@ -43,6 +43,11 @@ inline constexpr TokenSet kAccessModes = {TokenKind::KwVar, TokenKind::KwPers, T
 /// Words that end a branch.
 inline constexpr TokenSet kIfEnds = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif,
                                      TokenKind::PlaceEit};
+/// Words that continue or end IF.
+inline constexpr TokenSet kIfWords = {TokenKind::KwEndif, TokenKind::KwElse, TokenKind::KwElseif};
+/// Ends of blocks within a routine.
+inline constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
+                                        TokenKind::KwEndtest};
 inline constexpr TokenSet kTestEnds = {TokenKind::KwEndtest, TokenKind::KwCase, TokenKind::KwDefault,
                                        TokenKind::PlaceCse};
 /// Words that begin an instruction.
@@ -59,6 +64,14 @@ inline constexpr TokenSet kDeclWords = {
     TokenKind::KwFunc,   TokenKind::KwTrap,   TokenKind::KwRecord, TokenKind::KwAlias, TokenKind::KwModule,
     TokenKind::PlaceTdn, TokenKind::PlaceDdn, TokenKind::PlaceRdn};
 inline constexpr TokenSet kLineWords = kStmtWords | kEndWords | kBlockWords | kDeclWords;
+/// A routine has ended before these.
+inline constexpr TokenSet kAfterRoutine = {TokenKind::KwProc,   TokenKind::KwFunc,      TokenKind::KwTrap,
+                                           TokenKind::KwModule, TokenKind::KwEndmodule, TokenKind::EndOfFile};
+/// Ends of any search within a routine.
+inline constexpr TokenSet kRoutineBorders =
+    kAfterRoutine | TokenSet{TokenKind::KwEndproc, TokenKind::KwEndfunc, TokenKind::KwEndtrap};
+inline constexpr TokenSet kLiterals = {TokenKind::NumLiteral, TokenKind::StringLiteral, TokenKind::KwTrue,
+                                       TokenKind::KwFalse};
 /// Words that begin a declaration no routine has.
 inline constexpr TokenSet kModuleLevel = {TokenKind::KwProc, TokenKind::KwFunc, TokenKind::KwTrap,
                                           TokenKind::KwRecord, TokenKind::KwAlias};

@@ -1,4 +1,4 @@
-// END words that are missing, misplaced or written in another way.
+// END words that are missing, misplaced or written in a different way.
 
 #include "frontend/syntax/grammar/parts.h"
 
@@ -6,13 +6,6 @@
 #include <utility>
 
 namespace rapid::syntax {
-
-namespace {
-
-constexpr TokenSet kBlockEnds = {TokenKind::KwEndif, TokenKind::KwEndfor, TokenKind::KwEndwhile,
-                                 TokenKind::KwEndtest};
-
-} // namespace
 
 void EndWords::closeBlock(K end, TokenIndex opening, bool whole) {
     if (accept(end)) {

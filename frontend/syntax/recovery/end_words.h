@@ -1,5 +1,5 @@
 #pragma once
-// END words that are missing, misplaced or written in another way.
+// END words that are missing, misplaced or written in a different way.
 
 #include "frontend/syntax/grammar/parser_part.h"
 

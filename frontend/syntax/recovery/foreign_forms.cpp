@@ -11,7 +11,7 @@ using diag::Code;
 
 namespace {
 
-/// Blocks of other languages that RAPID writes in another way. WHILE is what closes DO.
+/// Blocks of other languages that RAPID writes in a different way. WHILE is what closes DO.
 struct ForeignBlock {
     std::string_view word;
     std::string_view closer; ///< "A|B": one of them; "A B": both, in this order

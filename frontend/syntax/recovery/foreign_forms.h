@@ -27,7 +27,7 @@ class ForeignForms : public ParserPart {
     bool parseForeignFor(ForStmt* node);
     /// `for i in range(3):`: true when the head has been read.
     bool parseForIn(ForStmt* node);
-    /// Type and name of data in another order, or without a type: `x : num`, `x AS num`, `x := 1`.
+    /// Type and name of data in a different order, or without a type: `x : num`, `x AS num`, `x := 1`.
     bool parseForeignData(DataDecl* node);
     /// A parameter without a data type, or with it after the name; true when it has been read.
     bool parseForeignParameter(ParamDecl* node);

@@ -51,14 +51,13 @@ class ListStrategy : public RecoveryStrategy {
 class PieceOfEnd : public ListStrategy {
     using ListStrategy::ListStrategy;
     Proposal propose(const Situation& at) const override {
-        constexpr TokenSet kAfterRoutine = {K::KwProc,   K::KwFunc,      K::KwTrap,   K::KwLocal,
-                                            K::KwModule, K::KwEndmodule, K::EndOfFile};
+        constexpr TokenSet kNext = kAfterRoutine | TokenSet{K::KwLocal};
         const K end = block().endOfOwn(at.own);
         if (panic() || !at.own.has(end) || !typos().isPieceOf(pos(), end)) return {};
         const bool inLine = block().opening != kNoToken && startsLine(block().opening) &&
                             columnOf(pos()) == columnOf(block().opening);
         const bool fits =
-            end == block().routineEnd ? kAfterRoutine.has(peek()) : inLine && block().closesHere(end);
+            end == block().routineEnd ? kNext.has(peek()) : inLine && block().closesHere(end);
         return fits ? keyword(pos(), pos(), end) : Proposal();
     }
 };

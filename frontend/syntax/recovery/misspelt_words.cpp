@@ -51,7 +51,7 @@ bool MisspeltWords::isPieceOf(TokenIndex i, K end) const {
            equalsNoCase(text.substr(0, kLeast), word.substr(0, kLeast));
 }
 
-/// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
+/// Letters of the word in a different order, or one too many or too few: "Dim" is not meant as DIV.
 bool MisspeltWords::isShuffled(TokenIndex i, K word) const {
     std::string written = upperCase(textOf(i)), spelling(tokenText(word));
     if (written.size() != spelling.size()) return true;

@@ -13,7 +13,7 @@ class MisspeltWords : public ParserPart {
     /// How many edits make this keyword of the name; a word of another language for it counts one. 0: it was not meant.
     /// Short words have many neighbours, so they allow one edit; `limit` allows that many.
     unsigned editsTo(TokenIndex i, K word, unsigned limit = 0) const;
-    /// Letters of the word in another order, or one too many or too few: "Dim" is not meant as DIV.
+    /// Letters of the word in a different order, or one too many or too few: "Dim" is not meant as DIV.
     bool isShuffled(TokenIndex i, K word) const;
     /// A piece of a word, alone in its line, that was cut off or written into another one: "EN", "ENDPENDPROC".
     bool isPieceOf(TokenIndex i, K word) const;

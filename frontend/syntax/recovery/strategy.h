@@ -126,7 +126,7 @@ class Recovery : public ParserPart {
     using ParserPart::ParserPart;
 
     /// Null when no strategy explains the mistake. Otherwise it is reported and the tokens are edited; the parser looks
-    /// again at the current one. The pointer is good until the next call.
+    /// again at the current one. The pointer is valid until the next call.
     const Repair* repair(const Situation& at);
     const Repair* repair(Place place) { return repair(Situation{.place = place}); }
 

@@ -82,9 +82,8 @@ class ElseForDefault : public StrayStrategy {
 class BlockOfCompactIf : public StrayStrategy {
     using StrayStrategy::StrayStrategy;
     Proposal propose(const Situation&) const override {
-        constexpr TokenSet kOfIf = {K::KwEndif, K::KwElse, K::KwElseif};
         const TokenIndex opening = block().compactIf, end = block().compactIfEnd;
-        if (!kOfIf.has(kind()) || opening == kNoToken || end == kNoToken ||
+        if (!kIfWords.has(kind()) || opening == kNoToken || end == kNoToken ||
             isMarked(Mark::BlockOfCompactIf, opening) || columnOf(pos()) != columnOf(opening))
             return {};
         Repair repair = isStray(say::MissingBlockWord, "THEN");

@@ -1,4 +1,4 @@
-// The way back to firm ground after a mistake.
+// Finds a place to continue parsing from after a mistake.
 
 #include "frontend/syntax/grammar/parts.h"
 
@@ -147,10 +147,7 @@ bool Synchronizer::assignmentBelow() {
 void Synchronizer::abandonRoutine() {
     block().abandoned = true;
     endPanic();
-    constexpr TokenSet kStop = {TokenKind::KwEndproc, TokenKind::KwEndfunc,   TokenKind::KwEndtrap,
-                                TokenKind::KwProc,    TokenKind::KwFunc,      TokenKind::KwTrap,
-                                TokenKind::KwModule,  TokenKind::KwEndmodule, TokenKind::EndOfFile};
-    while (!kStop.has(kind()))
+    while (!kRoutineBorders.has(kind()))
         take();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The way back to firm ground after a mistake.
+// Finds a place to continue parsing from after a mistake.
 
 #include "frontend/syntax/grammar/parser_part.h"
 

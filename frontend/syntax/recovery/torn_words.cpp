@@ -90,7 +90,7 @@ diag::Diagnostic* TornWords::reportTornName() {
     return nullptr;
 }
 
-/// "found 'p Pick', expected 'pPick'"; the checker then says nothing of that line.
+/// "found 'p Pick', expected 'pPick'"; the checker then reports nothing about that line.
 diag::Diagnostic* TornWords::reportWord(TokenIndex first, TokenIndex last, const std::string& whole,
                                         bool certain) {
     return reports().reportWord({range(first).begin, range(last).end}, whole, certain);

@@ -4,8 +4,10 @@
 #include "stdlib/gen/emit.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 namespace {
 
@@ -60,6 +62,8 @@ int main(int argc, char** argv) {
     for (const std::string& error : model.errors)
         std::fprintf(stderr, "%s\n", error.c_str());
     if (!model.errors.empty()) return 2;
+    std::error_code code;
+    std::filesystem::create_directories(target, code); // a failure shows when a file is written
     const bool ok = mode == "--out" ? writeAll(model, target) : writeReference(model, target);
     return ok ? 0 : 1;
 }

@@ -50,9 +50,10 @@ bool assign(const IoSystem& io, const CfgAttribute& attribute, const Names& name
         const SignalId id = io.find(attribute.text());
         if (attribute.text().empty()) return true;
         if (id < 0 || !fits(io.config(id).type))
-            problem = fmt::format(
-                "PROC.cfg, line {}: {} names signal \"{}\", which {}. Define it in EIO.cfg.", attribute.line,
-                attribute.name, attribute.text(), id < 0 ? "no configuration defines" : "has another type");
+            problem =
+                fmt::format("PROC.cfg, line {}: {} names signal \"{}\", which {}. Define it in EIO.cfg.",
+                            attribute.line, attribute.name, attribute.text(),
+                            id < 0 ? "no configuration defines" : "has a different type");
         else
             signals[i] = id;
         return true;

@@ -17,7 +17,7 @@ class ArcProcess {
     /// The weld of the task's robot.
     static ArcProcess& of(TaskCore* task);
 
-    /// Between ArcLStart and ArcLEnd, also while an error has put the arc out.
+    /// Between ArcLStart and ArcLEnd, even while an error has put the arc out.
     bool isActive() const { return phase_ != Phase::Off; }
     int system() const { return system_; }
     /// WeldInhib is set: movements without a weld.
@@ -86,7 +86,7 @@ class ArcProcess {
     std::shared_ptr<motion::Weaving> weaving_;
 };
 
-/// The program of a task begins anew: its weld ends.
+/// The program of a task begins again: its weld ends.
 void endWeld(Task& task);
 
 } // namespace rt::lib

@@ -1,6 +1,7 @@
 // Manual 1.18: test signals; GetJointData. Every reading is the value of the moment: means over the last samples, which a
 // controller gives for short sample times, differ from it by a few milliseconds of movement.
 
+#include "runtime/robot/angles.h"
 #include "stdlib/impl/axis_service/axis_values.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::size_t kChannels = 12;
 constexpr float kLongestSample = 0.1F; // s
-constexpr double kRadians = std::numbers::pi / 180;
 // Numbers that published programs use beside the documented ones.
 // RAPID's constant speed is not declared: programs use that name for data of their own.
 constexpr int kMotorSpeed = 6;
@@ -65,9 +65,9 @@ bool isKnown(int signal) {
 double read(Controller& controller, const SignalChannel& channel) {
     const lib::AxisValues values = lib::axisValues(controller, channel.place);
     switch (channel.signal) {
-    case static_cast<int>(k::resolver_angle): return values.position * kRadians;
+    case static_cast<int>(k::resolver_angle): return values.position * robot::kDeg;
     case static_cast<int>(k::speed_ref):
-    case kMotorSpeed: return values.speed * kRadians;
+    case kMotorSpeed: return values.speed * robot::kDeg;
     case static_cast<int>(k::torque_ref):
     case kJointTorque: return values.torque;
     case kJointPosition: return values.position;

@@ -5,7 +5,7 @@
 
 namespace rt::lib {
 
-/// Ends the indexing mode of all conveyors (the program begins anew).
+/// Ends the indexing mode of all conveyors (the program begins again).
 void resetIndexing(Controller& controller);
 
 } // namespace rt::lib

@@ -8,7 +8,7 @@ namespace rt::lib {
 
 /// Before the order of a movement between SyncToSensor \On and \Off: its duration. Waits while the sensor is at rest.
 Status followSensor(TaskCore* task, motion::MoveCommand& command);
-/// The program begins anew: no synchronisation.
+/// The program begins again: no synchronisation.
 void endSensorSync(Task& task);
 
 } // namespace rt::lib

@@ -52,7 +52,7 @@ class DispenseProcess {
     std::array<bool, 2> follows_{}; ///< a flow follows the speed of the TCP
 };
 
-/// The program of a task begins anew: its bead ends.
+/// The program of a task begins again: its bead ends.
 void endBead(Task& task);
 
 } // namespace rt::lib

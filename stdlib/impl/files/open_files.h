@@ -47,7 +47,7 @@ class OpenFiles {
     HandleTable<Directory> directories_;
 };
 
-/// Files are closed when a program begins anew, at a power failure and at the end; variables name none after a restart (--state).
+/// Files are closed when a program begins again, at a power failure and at the end; variables name none after a restart (--state).
 void keepFiles(Controller& controller, StateKeepers& kept);
 
 /// The open file that a variable names. Null and ERR_FILEACC raised when there is none.

@@ -36,4 +36,21 @@ int PlacedFile::putNew(mode_t mode) {
     return file_.renameTo(folder_ + "/" + place_->name);
 }
 
+int replaceWhole(const VolumePlace& place, std::string_view bytes) {
+    const int folder = place.folder.number();
+    struct stat old{};
+    const bool exists = ::fstatat(folder, place.name.c_str(), &old, AT_SYMLINK_NOFOLLOW) == 0;
+    PlacedFile file;
+    int error = file.make(place);
+    if (error == 0) error = rapid::config::writeAll(file.descriptor(), bytes);
+    if (error == 0 && ::fsync(file.descriptor()) != 0) error = errno;
+    if (error == 0)
+        error = file.replace(exists ? old.st_mode & 07777 : rapid::config::permissionsOfNew(0666));
+    if (error != 0) return error;
+    const Descriptor readable(
+        ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)); // it may be a mere path
+    if (readable.isOpen()) ::fsync(readable.number());
+    return 0;
+}
+
 } // namespace rt::lib

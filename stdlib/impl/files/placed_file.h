@@ -6,6 +6,7 @@
 #include "runtime/host/volumes.h"
 
 #include <string>
+#include <string_view>
 
 #include <sys/stat.h>
 
@@ -26,5 +27,8 @@ class PlacedFile {
     const VolumePlace* place_ = nullptr;
     std::string folder_; ///< the open folder of the place: links on the way to it do not matter
 };
+
+/// Writes all of a file of a volume, in one step and to the disk. An existing file keeps its permissions. 0 or the number of the error.
+[[nodiscard]] int replaceWhole(const VolumePlace& place, std::string_view bytes);
 
 } // namespace rt::lib

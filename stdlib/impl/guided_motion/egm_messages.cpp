@@ -30,7 +30,7 @@ void put(const RobotPlace& from, const RobotData& data, egm::EgmPlace& to) {
     pose.mutable_orient()->set_u2(from.pose.rot.y);
     pose.mutable_orient()->set_u3(from.pose.rot.z);
     put(robot::eulerZyx(from.pose.rot), *pose.mutable_euler());
-    (void)to.mutable_externaljoints(); // there, also without axes
+    (void)to.mutable_externaljoints(); // there, even without axes
     for (const double axis : from.external)
         to.mutable_externaljoints()->add_value(axis);
     to.mutable_time()->set_sec(static_cast<uint64_t>(data.calendar));

@@ -71,7 +71,7 @@ class EgmProcess {
     bool hasFinished() const { return phase_ == Phase::None; }
     /// Notified when the guidance ends.
     WaitQueue& changed() { return changed_; }
-    /// EGMWaitCond: the guidance ends when its condition is met, also when the program did not wait for that before.
+    /// EGMWaitCond: the guidance ends when its condition is met, even when the program did not wait for that before.
     void awaitCondition();
     /// The source has other data.
     void wake();
@@ -157,7 +157,7 @@ class EgmProcesses {
     void release(Handle identity) { processes_.erase(identity); }
     /// The process that guides this robot now; null when there is none.
     EgmProcess* guiding(const MotionDriver& motion);
-    /// The program of the task begins anew: what it left is released.
+    /// The program of the task begins again: what it left is released.
     void releaseAll(const Task& owner);
 
   private:
@@ -168,7 +168,7 @@ class EgmProcesses {
     std::set<const MotionDriver*> watched_; ///< whose stops and starts are listened to
 };
 
-/// The program of a task begins anew.
+/// The program of a task begins again.
 void endGuidance(Task& task);
 
 } // namespace rt::lib

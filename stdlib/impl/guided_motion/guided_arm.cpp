@@ -32,16 +32,16 @@ double approach(double difference, double gain, double acceleration) {
 }
 
 /// One period of an axis towards its goal, with `gain` times its distance a second and a speed that is asked for besides.
-void follow(double& position, double& speed, double goal, double gain, double speedAsked,
+void follow(double& position, double& speed, double goal, double gain, double speedRequested,
             const AxisLimits& limits) {
     const double difference = goal - position;
-    if (speedAsked == 0 && std::fabs(difference) < kNear && std::fabs(speed) * kSeconds < kNear) {
+    if (speedRequested == 0 && std::fabs(difference) < kNear && std::fabs(speed) * kSeconds < kNear) {
         if (gain > 0) position = goal;
         speed = 0;
         return;
     }
-    const double wanted =
-        std::clamp(approach(difference, gain, limits.acceleration) + speedAsked, -limits.speed, limits.speed);
+    const double wanted = std::clamp(approach(difference, gain, limits.acceleration) + speedRequested,
+                                     -limits.speed, limits.speed);
     const double change = limits.acceleration * kSeconds;
     speed = std::clamp(wanted, speed - change, speed + change);
     position = std::clamp(position + speed * kSeconds, std::min(limits.lower, position),
@@ -178,7 +178,7 @@ void GuidedArm::follow(const SensorData& data, double share) {
     const double part =
         settings_.filterHz > 0 ? 1 - std::exp(-2 * std::numbers::pi * settings_.filterHz * kSeconds) : 1;
     isSteady_ = share >= 1;
-    const motion::Joints asked = speedAsked(data);
+    const motion::Joints asked = speedRequested(data);
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         filtered_[i] += part * (wanted_[i] - filtered_[i]);
         if (std::fabs(wanted_[i] - filtered_[i]) < kNear) filtered_[i] = wanted_[i];
@@ -190,7 +190,7 @@ void GuidedArm::follow(const SensorData& data, double share) {
 }
 
 /// The speed of each axis that the data ask for, deg/s.
-motion::Joints GuidedArm::speedAsked(const SensorData& data) const {
+motion::Joints GuidedArm::speedRequested(const SensorData& data) const {
     if (settings_.mode == GuidanceMode::Pose) return speedOfPose(data);
     motion::Joints speed = motion::Joints::zeros(now_.robax.size());
     for (std::size_t i = 0; i < speed.size(); ++i) {
@@ -200,12 +200,12 @@ motion::Joints GuidedArm::speedAsked(const SensorData& data) const {
     return speed;
 }
 
-void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedAsked) {
+void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedRequested) {
     const robot::RobotModel& model = motion_.model();
     const Window range = rangeOf(axis);
     const AxisLimits limits{range.low, range.high, std::min(settings_.maxSpeed, model.maxSpeed[axis]),
                             model.maxAcceleration[axis]};
-    ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedAsked, limits);
+    ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedRequested, limits);
 }
 
 /// Additional axes, within their ranges.

@@ -42,7 +42,7 @@ struct GuidanceOrder {
 
 class GuidedArm {
   public:
-    static constexpr Time kPeriod = 4 * kMillisecond;
+    static constexpr Time kPeriod = motion::kModifierPeriod;
 
     GuidedArm(MotionDriver& motion, const GuidanceSettings& settings, const GuidanceOrder& order);
 
@@ -68,9 +68,9 @@ class GuidedArm {
     motion::Joints targetOfPose(const SensorData& data);
     motion::Joints limited(motion::Joints wanted);
     Window rangeOf(std::size_t axis) const;
-    motion::Joints speedAsked(const SensorData& data) const;
+    motion::Joints speedRequested(const SensorData& data) const;
     motion::Joints speedOfPose(const SensorData& data) const;
-    void moveAxis(std::size_t axis, double goal, double gain, double speedAsked);
+    void moveAxis(std::size_t axis, double goal, double gain, double speedRequested);
     void moveAdditional(const SensorData& data, double gain);
     void place(const motion::JointTarget& speed);
     motion::JointTarget speedNow() const { return {speed_, additionalSpeed_}; }

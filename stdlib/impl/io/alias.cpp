@@ -47,7 +47,8 @@ Status rt_AliasIO(TaskCore* task, void* FromSignal, const TypeDesc* FromSignalTy
         return lib::fail(task, err::ERR_ALIASIO_DEF, "AliasIO: FromSignal names no configured signal");
     if (!sameSignalType(ToSignalType->baseName, io.config(id).type))
         return lib::fail(task, err::ERR_ALIASIO_TYPE,
-                         "AliasIO: signal " + io.config(id).name + " is of another type than the variable");
+                         "AliasIO: signal " + io.config(id).name +
+                             " is of a different type than the variable");
     const Handle handle = IoSystem::handleOf(id);
     std::memcpy(ToSignal, &handle, sizeof handle);
     return kOk;

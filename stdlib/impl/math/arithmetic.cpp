@@ -1,5 +1,6 @@
 // Manual 1.15: simple arithmetic. Inner calculations are done in double and rounded once to num.
 
+#include "runtime/value/whole_limits.h"
 #include "stdlib/impl/math/rounding.h"
 #include "stdlib/impl/support/finite.h"
 
@@ -48,8 +49,6 @@ double truncDnum(double value, int decimals) {
 } // namespace rt::lib
 
 namespace {
-
-constexpr double kNumInteger = 8388608;
 
 /// Number of decimals of an optional argument; negative when it is not valid.
 int decimalsOf(const float* dec) {

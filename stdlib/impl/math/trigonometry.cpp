@@ -1,5 +1,6 @@
 // Manual 1.15: angles in degrees.
 
+#include "runtime/robot/angles.h"
 #include "stdlib/impl/math/angles.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -16,7 +17,6 @@ namespace rt::lib {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTangentPole = 1.633123935319537e16; // tan(pi/2) of binary64
 
 /// Rest within +-45 degrees, and the quadrant 0..3 it belongs to. remquo is exact.
@@ -31,21 +31,21 @@ double reduced(double degrees, int& quadrant) {
 
 double sinDeg(double degrees) {
     int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * kDegree;
+    const double rest = reduced(degrees, quadrant) * robot::kDeg;
     const double value = quadrant % 2 == 0 ? std::sin(rest) : std::cos(rest);
     return quadrant < 2 ? value : 0.0 - value;
 }
 
 double cosDeg(double degrees) {
     int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * kDegree;
+    const double rest = reduced(degrees, quadrant) * robot::kDeg;
     const double value = quadrant % 2 == 0 ? std::cos(rest) : std::sin(rest);
     return quadrant == 0 || quadrant == 3 ? value : 0.0 - value;
 }
 
 SineCosine sinCosDeg(double degrees) {
     int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * kDegree;
+    const double rest = reduced(degrees, quadrant) * robot::kDeg;
     double sine = 0, cosine = 0;
     ::sincos(rest, &sine, &cosine);
     if (quadrant % 2 != 0) std::swap(sine, cosine);
@@ -54,22 +54,22 @@ SineCosine sinCosDeg(double degrees) {
 
 double tanDeg(double degrees) {
     int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * kDegree;
+    const double rest = reduced(degrees, quadrant) * robot::kDeg;
     if (quadrant % 2 == 0) return std::tan(rest);
     return rest == 0 ? (quadrant == 1 ? kTangentPole : -kTangentPole) : -1.0 / std::tan(rest);
 }
 
 double asinDeg(double value) {
-    return std::asin(value) / kDegree;
+    return std::asin(value) / robot::kDeg;
 }
 double acosDeg(double value) {
-    return std::acos(value) / kDegree;
+    return std::acos(value) / robot::kDeg;
 }
 double atanDeg(double value) {
-    return std::atan(value) / kDegree;
+    return std::atan(value) / robot::kDeg;
 }
 double atan2Deg(double y, double x) {
-    return std::atan2(y, x) / kDegree;
+    return std::atan2(y, x) / robot::kDeg;
 }
 
 } // namespace rt::lib

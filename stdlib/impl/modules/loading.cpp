@@ -22,9 +22,6 @@
 namespace rt::lib {
 namespace {
 
-/// Program memory of a controller takes some 20 MB of source; larger files are none that somebody wrote.
-constexpr std::size_t kLargestModule = std::size_t{20} << 20;
-
 /// Loading as a controller does it: opening the file, then so much for each KiB.
 constexpr Time kLoadingStart = kSecond / 50;
 constexpr Time kLoadingPerKib = kSecond / 1000;

@@ -1,5 +1,6 @@
 // Manual 1.7, 1.8: what is read and set of single axes.
 
+#include "runtime/robot/angles.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/torques.h"
 #include "stdlib/impl/motion/units.h"
@@ -14,8 +15,6 @@
 using namespace rt;
 
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 /// Place of a unit's axis among the external axes of the task's motion group; -1 and ERR_AXIS_PAR raised when it has none.
 int externalAxis(TaskCore* task, const MechanicalUnit& unit, float axis, Status& status) {
@@ -38,7 +37,7 @@ Status rt_ReadMotor(TaskCore* task, float* result, Handle* MecUnit, float Axis) 
     const int axis = lib::robotAxis(task, MecUnit, Axis, status);
     if (axis < 0) return status;
     const motion::MotionSystem& arm = lib::motionOf(task).system();
-    *result = static_cast<float>(arm.currentJoints().robax[static_cast<std::size_t>(axis)] * kRadians);
+    *result = static_cast<float>(arm.currentJoints().robax[static_cast<std::size_t>(axis)] * robot::kDeg);
     return kOk;
 }
 

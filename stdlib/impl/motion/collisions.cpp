@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kCollision = 20; // percent of the greatest torque, at a supervision level of 100 percent
 constexpr Time kSettling = 100 * kMillisecond;  // of the arm at the end of a movement
-constexpr Time kPeriod = 4 * kMillisecond;      // of the supervision
 constexpr double kBackoff = 2, kBackSpeed = 20; // mm, mm/s: away from what was hit
 
 /// Supervision as MOC.cfg has it; MotionSup works within it (2.6).
@@ -102,7 +101,7 @@ class CollisionWatch {
         std::size_t axis = 0;
         if (isSuspicious_ || !isHit(axis)) return;
         isSuspicious_ = true;
-        controller_->scheduler().after(kPeriod, [this] {
+        controller_->scheduler().after(motion::kModifierPeriod, [this] {
             isSuspicious_ = false;
             confirm();
         });

@@ -5,7 +5,7 @@
 
 namespace rt::lib {
 
-/// The program begins anew, or CorrClear: no generator is connected.
+/// The program begins again, or CorrClear: no generator is connected.
 void endCorrections(MotionDriver& motion);
 
 /// The movement, displaced by the corrections when `isCorrected` (\Corr).

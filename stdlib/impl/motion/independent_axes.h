@@ -5,7 +5,7 @@
 
 namespace rt::lib {
 
-/// The program begins anew: the axes are in normal mode again, those of the robot within half a turn of 0.
+/// The program begins again: the axes are in normal mode again, those of the robot within half a turn of 0.
 void endIndependentMode(MotionDriver& motion);
 
 } // namespace rt::lib

@@ -8,7 +8,7 @@
 
 namespace rt::lib {
 
-/// An array with an entry per group; what an earlier process with another number of groups left is refused.
+/// An array with an entry per group; what an earlier process with a different number of groups left is refused.
 StateKeepers::Keeper keptPerGroup(Controller& controller,
                                   std::function<nlohmann::json(MotionDriver&)> saveOne,
                                   std::function<void(MotionDriver&, const nlohmann::json&)> loadOne);

@@ -29,7 +29,7 @@ template <class Record> Json numbersOf(const Record& record) {
 template <class Record> void readNumbers(const Json& json, Record& record) {
     const auto numbers = json.get<std::vector<float>>();
     if (numbers.size() * sizeof(float) != sizeof(Record))
-        throw std::invalid_argument("another number of numbers");
+        throw std::invalid_argument("a different number of values");
     std::memcpy(&record, numbers.data(), sizeof(Record));
 }
 
@@ -65,7 +65,7 @@ MotionState load(const Json& json) {
     json.at("singLockAxis4").get_to(s.singLockAxis4);
     s.displacement = poseFrom(json.at("displacement"));
     const Json& offsets = json.at("axisOffsets");
-    if (offsets.size() != s.axisOffsets.size()) throw std::invalid_argument("another number of numbers");
+    if (offsets.size() != s.axisOffsets.size()) throw std::invalid_argument("a different number of values");
     offsets.get_to(s.axisOffsets);
     json.at("toolHeld").get_to(s.tool.robhold);
     readNumbers(json.at("tool"), s.tool.tframe);
@@ -97,7 +97,7 @@ StateKeepers::Keeper keptPerGroup(Controller& controller, std::function<Json(Mot
     };
     const auto loadAll = [&controller, loadOne = std::move(loadOne)](const Json& json) {
         if (json.size() != controller.motions().size())
-            throw std::invalid_argument("there was another number of motion groups");
+            throw std::invalid_argument("there was a different number of motion groups");
         for (std::size_t i = 0; i < json.size(); ++i)
             loadOne(*controller.motions()[i], json[i]);
     };

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::json;
 
 template <std::size_t N> void readNumbers(const Json& json, std::array<double, N>& numbers) {
-    if (json.size() != N) throw std::invalid_argument("another number of numbers");
+    if (json.size() != N) throw std::invalid_argument("a different number of values");
     json.get_to(numbers);
 }
 

@@ -12,8 +12,9 @@ namespace rt::lib {
 
 namespace {
 
-constexpr double kLowest = 0.01; // mm/s, deg/s: as the timing of movements takes it
-constexpr double kNoWay = 0.1;   // mm, deg
+using motion::kLowestSpeed;
+
+constexpr double kNoWay = 0.1; // mm, deg
 
 /// The lengths that a movement covers, straight from its beginning to its end.
 struct Ways {
@@ -47,7 +48,7 @@ void warnOfNoSpeed(TaskCore* task, const motion::MoveCommand& command) {
     const motion::SpeedData& speed = command.speed;
     const double least = std::min({speed.vTcp, speed.vOri, speed.vLeax, speed.vReax});
     const bool isTimed = command.duration > 0;
-    if (isTimed || !(least >= 0 && least < kLowest)) return; // a negative speed is an error
+    if (isTimed || !(least >= 0 && least < kLowestSpeed)) return; // a negative speed is an error
     Task& owner = taskOf(task);
     MotionDriver& driver = owner.controller().motion(owner);
     const Ways ways = waysOf(driver, command);
@@ -61,9 +62,10 @@ void warnOfNoSpeed(TaskCore* task, const motion::MoveCommand& command) {
                         {"v_leax", speed.vLeax, ways.linear, "mm/s"},
                         {"v_reax", speed.vReax, ways.rotating, "deg/s"}};
     for (const Row& row : rows) {
-        if (row.speed >= kLowest || !(row.way > kNoWay)) continue;
-        owner.report(EventId::NoSpeed, {row.name, driver.unitName(), std::string("0.01 ") + row.unit,
-                                        formatDisplayNum(static_cast<float>(std::round(row.way / kLowest)))});
+        if (row.speed >= kLowestSpeed || !(row.way > kNoWay)) continue;
+        owner.report(EventId::NoSpeed,
+                     {row.name, driver.unitName(), std::string("0.01 ") + row.unit,
+                      formatDisplayNum(static_cast<float>(std::round(row.way / kLowestSpeed)))});
         return;
     }
 }

@@ -18,7 +18,7 @@ struct MoveArguments {
     const data::Stoppointdata* inpos = nullptr;
     const data::Tooldata* tool = nullptr; ///< always given
     const data::Wobjdata* workObject = nullptr;
-    bool exactConfiguration = false; ///< a line ends in the configuration of its target, also with ConfL \Off
+    bool exactConfiguration = false; ///< a line ends in the configuration of its target, even with ConfL \Off
     const data::Loaddata* totalLoad = nullptr; ///< \TLoad
     bool movesGun = false;                     ///< also external axes that are independent of the robot
 };

@@ -71,7 +71,7 @@ class PathRecorder {
     Handle lastId_ = 0;
 };
 
-/// The program begins anew: nothing is recorded any more.
+/// The program begins again: nothing is recorded any more.
 void endPathRecording(MotionDriver& motion);
 
 } // namespace rt::lib

@@ -9,7 +9,7 @@ struct StateKeepers;
 
 namespace rt::lib {
 
-/// The program begins anew: all axes are stiff, and tuned as configured.
+/// The program begins again: all axes are stiff, and tuned as configured.
 void endSoftServo(Controller& controller, MotionDriver& motion);
 /// Softness and tuning are kept between two processes (--state).
 void keepSoftServo(Controller& controller, StateKeepers& kept);

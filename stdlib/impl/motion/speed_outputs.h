@@ -13,9 +13,9 @@ struct SpeedScale {
 };
 
 /// From now on the output is `scale` times the speed of the TCP, through the movements that follow and 0 while the arm
-/// is at rest, until another scale is given or the program begins anew. Values outside its limits are set to the limit.
+/// is at rest, until another scale is given or the program begins again. Values outside its limits are set to the limit.
 void followSpeed(Task& task, Handle output, const SpeedScale& scale);
-/// The program begins anew: outputs that follow the speed are set to 0.
+/// The program begins again: outputs that follow the speed are set to 0.
 void endSpeedOutputs(Task& task);
 
 } // namespace rt::lib

@@ -49,9 +49,9 @@ struct MotionState {
 MotionState& motionState(TaskCore* task);
 /// SYS_RESET: the default settings; tool and work object stay.
 void restoreDefaults(Task& task);
-/// The settings when the program of a motion task begins anew (manual 1.7): defaults; tool and work object stay.
+/// The settings when the program of a motion task begins again (manual 1.7): defaults; tool and work object stay.
 void resetSettings(Task& task);
-/// The program begins anew: TriggStopProc supervises no more.
+/// The program begins again: TriggStopProc supervises no more.
 void endStopSupervision(Task& task);
 /// The settings are kept between two processes (--state).
 void keepSettings(Controller& controller, StateKeepers& kept);

@@ -1,5 +1,6 @@
 #include "stdlib/impl/motion/torques.h"
 
+#include "runtime/robot/angles.h"
 #include "runtime/sim/surroundings.h"
 
 #include <cmath>
@@ -8,17 +9,15 @@
 namespace rt::lib {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
-
 struct ArmReach {
     double ofWrist = 0;   ///< m, horizontally from axis 2 to the centre of the wrist
     double ofForearm = 0; ///< m, horizontally from axis 3 to there
 };
 
 ArmReach reachAt(const robot::OpwParameters& g, double axis2, double axis3) {
-    const double q23 = (axis2 + axis3) * kRadians;
+    const double q23 = (axis2 + axis3) * robot::kDeg;
     const double forearm = 0.001 * (g.c3 * std::cos(q23) - g.a2 * std::sin(q23));
-    return {forearm + 0.001 * g.c2 * std::sin(axis2 * kRadians), forearm};
+    return {forearm + 0.001 * g.c2 * std::sin(axis2 * robot::kDeg), forearm};
 }
 
 /// Share of the torque of an axis that holds the arm against gravity, for an arm on the floor. The moved mass is the one
@@ -42,7 +41,8 @@ double greatestTorque(const robot::RobotModel& model, std::size_t axis) {
     const double mass = kArmMass * model.payloadKg;
     const double perDistance = axis == 0 ? limit.wrist : axis == 1 ? limit.reach : 0;
     if (perDistance > 0) return mass * limit.scale / perDistance;
-    const double greatest = limit.cap > 0 ? limit.scale * limit.cap : kRadians * model.maxAcceleration[axis];
+    const double greatest =
+        limit.cap > 0 ? limit.scale * limit.cap : robot::kDeg * model.maxAcceleration[axis];
     if (axis > 2) return model.payloadKg * kLoadOffset * kLoadOffset * greatest;
     const double length = axis == 2 ? 0.5 * model.reachM : model.reachM;
     return mass * length * length * greatest;

@@ -104,7 +104,7 @@ void WorldZones::listen() {
     motion_->addListener([this](ArmChange news) { take(news); });
 }
 
-/// While the motors are off nothing is looked at; what they find when they are on again is acted upon anew.
+/// While the motors are off nothing is looked at; what they find when they are on again is acted upon again.
 void WorldZones::take(ArmChange news) {
     if (news == ArmChange::MotorsOff) motorsOff_ = true;
     if (news == ArmChange::PowerFailed)

@@ -73,7 +73,7 @@ class WorldZones {
 
 /// The zones of a motion group: they supervise its robot.
 WorldZones& zonesOf(Controller& controller, MotionDriver& motion);
-/// The program begins anew: temporary zones are erased.
+/// The program begins again: temporary zones are erased.
 void endTemporaryZones(Task& task);
 /// Temporary zones and shapedata variables between two processes (--state).
 void keepWorldZones(Controller& controller, StateKeepers& kept);

@@ -54,7 +54,7 @@ struct SyncPoints {
     }
 };
 
-/// The arrival counts as long as this lives, also when the program pointer is moved away.
+/// The arrival counts as long as this lives, even when the program pointer is moved away.
 class Presence {
   public:
     Presence(SyncPoints& points, Arrival& arrival) : points_(points), arrival_(arrival) {

@@ -71,7 +71,7 @@ std::string ProcessSignals::read(Controller& controller, std::string_view types,
                 return fmt::format(
                     "PROC.cfg, line {}: {} names signal \"{}\", which {}. Define it in EIO.cfg",
                     attribute->line, attribute->name, attribute->text(),
-                    isWrong ? "has another type" : "no configuration defines");
+                    isWrong ? "has a different type" : "no configuration defines");
         }
     }
     return {};

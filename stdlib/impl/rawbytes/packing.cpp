@@ -26,7 +26,7 @@ struct IntegerForm {
             if (std::fabs(inttypes) == known) width = static_cast<uint32_t>(known);
         isSigned = inttypes < 0;
     }
-    /// The least number that can be packed: negative ones as two's complement, also without a sign (decision 113).
+    /// The least number that can be packed: negative ones as two's complement, even without a sign (decision 113).
     double least() const { return -std::ldexp(1.0, static_cast<int>(width * 8 - 1)); }
     /// The first number that is too large.
     double end() const { return std::ldexp(1.0, static_cast<int>(width * 8 - (isSigned ? 1 : 0))); }

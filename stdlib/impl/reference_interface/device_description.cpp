@@ -11,8 +11,6 @@
 namespace rt::lib {
 namespace {
 
-constexpr Time kTick = 4 * kSecond / 1000; // periods and times are multiples of it
-
 std::string readFile(Controller& controller, const std::string& path, std::string_view rootName,
                      XmlElement& root) {
     std::string bytes;
@@ -69,7 +67,7 @@ std::string readSettings(const XmlElement& description, ReferenceDescription& ou
     double number = 0;
     if (const XmlElement* timeout = settings->find("TimeOut")) {
         if (!wholeNumber(timeout->text, 1, 1e7, number)) return "<TimeOut> must be a time in ms";
-        out.timeout = std::max(kTick, static_cast<Time>(number) * (kSecond / 1000));
+        out.timeout = std::max(kReferenceTick, static_cast<Time>(number) * (kSecond / 1000));
     }
     if (const XmlElement* lost = settings->find("MaxLost")) {
         if (!wholeNumber(lost->text, 0, 1e9, number)) return "<MaxLost> must be a number of messages";

@@ -13,6 +13,9 @@
 
 namespace rt::lib {
 
+/// Periods and times of the interface are multiples of it.
+inline constexpr Time kReferenceTick = 4 * kMillisecond;
+
 /// An element of a message.
 struct ReferenceField {
     std::string source;    ///< "FeedbackPose" ... of internal ones

@@ -15,8 +15,6 @@
 namespace rt::lib {
 namespace {
 
-constexpr Time kTick = 4 * (kSecond / 1000);
-
 const data::Wobjdata& world() {
     static const data::Wobjdata kWorld = MotionState().workObject;
     return kWorld;
@@ -42,7 +40,7 @@ Status ReferenceDevice::connect(TaskCore* task) {
             return outcome.fault != net::Fault::Again;
         };
         spec.deadline = addTime(owner_.now(), description_.timeout);
-        spec.pollPeriod = isOutside ? kTick : 0;
+        spec.pollPeriod = isOutside ? kReferenceTick : 0;
         spec.outside = [&]() -> std::optional<OutsideWait> {
             if (auto outside = socket_->outside(true)) return outside;
             return isOutside ? std::optional(OutsideWait{}) : std::nullopt;
@@ -101,7 +99,7 @@ void ReferenceDevice::end() {
 void ReferenceDevice::schedule() {
     if (tick_ != 0 || !socket_ || (sent_.period == 0 && received_.period == 0)) return;
     const Time now = controller_.scheduler().now();
-    tick_ = controller_.scheduler().at((now / kTick + 1) * kTick, [this] {
+    tick_ = controller_.scheduler().at((now / kReferenceTick + 1) * kReferenceTick, [this] {
         tick_ = 0;
         tick();
     });

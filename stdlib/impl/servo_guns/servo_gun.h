@@ -52,7 +52,7 @@ class ServoGun {
     /// Takes that over. A movement in progress was ended by the power failure: the instruction that waited for it raises
     /// ERR_SGUN_MOTOFF when it is executed again. Throws what the JSON library throws.
     void restore(const nlohmann::json& state);
-    /// The program begins anew: a movement in progress is forgotten.
+    /// The program begins again: a movement in progress is forgotten.
     void reset();
 
   private:
@@ -86,7 +86,7 @@ class ServoGuns {
   public:
     /// Null when the unit is not there or not a gun.
     ServoGun* find(Controller& controller, std::string_view unit);
-    /// The program of a task begins anew.
+    /// The program of a task begins again.
     void reset();
     const std::map<const MechanicalUnit*, std::unique_ptr<ServoGun>>& known() const { return guns_; }
 

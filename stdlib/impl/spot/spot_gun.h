@@ -60,7 +60,7 @@ class SpotGun {
 SpotGun* spotGunOf(TaskCore* task, const float* number, const data::Gundata* gun, Status& status);
 /// The controller stops or starts the program: guns that close on the way open.
 void superviseGuns(TaskCore* task);
-/// The program of a task begins anew: guns open.
+/// The program of a task begins again: guns open.
 void openGuns(Task& task);
 
 /// The welds of the guns since their calibration, between two processes (--state).

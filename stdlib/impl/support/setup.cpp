@@ -35,7 +35,7 @@ void setUpStandardLibrary(Controller& controller) {
     controller.onProgramReset(lib::endBead);
     controller.onProgramReset([](Task& task) { task.controller().service<lib::ServoGuns>().reset(); });
     controller.onProgramReset(lib::endGuidance);
-    controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins anew"); });
+    controller.onProgramReset([](Task& task) { lib::closeSockets(task, "its program begins again"); });
     controller.onConnectionsLost(lib::closeSockets);
     lib::openCameras(controller);
     auto& kept = controller.service<StateKeepers>();

@@ -1,6 +1,7 @@
 #include "stdlib/impl/system/configuration.h"
 
 #include "runtime/base/text_util.h"
+#include "runtime/robot/angles.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 
 namespace rt::lib {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 bool isWord(const CfgAttribute& attribute, std::initializer_list<const char*> words) {
     for (const char* word : words)
@@ -137,8 +136,8 @@ CfgInstance& Configuration::motionInstance(const std::string& type, const std::s
 /// The axis with that name and place in the model.
 void Configuration::addAxis(const robot::RobotModel& model, std::size_t axis, const std::string& name) {
     CfgInstance& arm = motionInstance("ARM", name);
-    ensureNumber(arm, "upper_joint_bound", model.upperDeg[axis] * kRadians);
-    ensureNumber(arm, "lower_joint_bound", model.lowerDeg[axis] * kRadians);
+    ensureNumber(arm, "upper_joint_bound", model.upperDeg[axis] * robot::kDeg);
+    ensureNumber(arm, "lower_joint_bound", model.lowerDeg[axis] * robot::kDeg);
     ensureNumber(arm, "cal_position", 0);
     CfgInstance& motor = motionInstance("MOTOR_CALIB", name);
     ensureNumber(motor, "cal_offset", 0);

@@ -1,6 +1,5 @@
 #include "stdlib/impl/system/whole_file.h"
 
-#include "config/atomic_file.h"
 #include "stdlib/impl/files/open_files.h"
 #include "stdlib/impl/files/placed_file.h"
 
@@ -30,18 +29,14 @@ Descriptor openWhole(Controller& controller, std::string_view path, std::string&
     return file;
 }
 
-/// Replaces the file in one step, so that a process that is killed leaves the old one or the new one. "" or the problem.
+/// "" or the problem.
 std::string replaceIn(const VolumePlace& place, std::string_view bytes) {
     struct stat old{};
     const bool exists = ::fstatat(place.folder.number(), place.name.c_str(), &old, AT_SYMLINK_NOFOLLOW) == 0;
     if (exists && !S_ISREG(old.st_mode)) return "it is not a file";
     if (exists && ::faccessat(place.folder.number(), place.name.c_str(), W_OK, 0) != 0)
         return std::strerror(errno);
-    PlacedFile file;
-    int error = file.make(place);
-    if (error == 0) error = rapid::config::writeAll(file.descriptor(), bytes);
-    if (error == 0)
-        error = file.replace(exists ? old.st_mode & 07777 : rapid::config::permissionsOfNew(0666));
+    const int error = replaceWhole(place, bytes);
     return error == 0 ? std::string() : std::strerror(error);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Date and time of the controller. On virtual time they begin at a fixed moment, so that a program that prints the date
-// gives the same output on every run; with --realtime they are the wall's (UTC).
+// gives the same output on every run; with --realtime they are those of the wall clock (UTC).
 
 #include "runtime/sched/task.h"
 

@@ -1,6 +1,7 @@
 // Manual 1.6 and 1.17: modes, tasks, types of data.
 
 #include "runtime/host/panel_switches.h"
+#include "runtime/value/whole_limits.h"
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
@@ -13,13 +14,6 @@
 #include <cstring>
 
 using namespace rt;
-
-namespace {
-
-constexpr double kNumInteger = 8388608;
-constexpr double kDnumInteger = 4503599627370496;
-
-} // namespace
 
 extern "C" {
 

@@ -129,7 +129,7 @@ template <class Value>
 Status mismatch(TaskCore* task, Status number, const Camera& camera, const String& name, Value* found) {
     return lib::fail(task, number,
                      fmt::format("parameter {} of camera {} {}", name.view(), camera.name(),
-                                 found == nullptr ? "does not exist" : "has another type"));
+                                 found == nullptr ? "does not exist" : "has a different type"));
 }
 
 Status setMode(TaskCore* task, Handle handle, bool run) {

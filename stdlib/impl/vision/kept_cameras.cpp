@@ -64,7 +64,7 @@ CameraResult resultFrom(const Json& json) {
     json.at("name").get_to(part.name);
     part.frame = poseFrom(json.at("frame"));
     if (json.at("values").size() != part.values.size() || json.at("texts").size() != part.texts.size())
-        throw std::invalid_argument("another number of values");
+        throw std::invalid_argument("a different number of values");
     json.at("values").get_to(part.values);
     json.at("texts").get_to(part.texts);
     json.at("type").get_to(part.type);

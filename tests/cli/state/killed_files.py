@@ -7,11 +7,10 @@ import json
 import os
 import random
 import re
-import signal
-import subprocess
 import sys
 import tempfile
-import time
+
+from killed_run import killed_run
 
 rapidc, module, *options = sys.argv[1:]
 choose = random.Random(23)
@@ -51,18 +50,8 @@ def main():
         state_file = os.path.join(state, "state.json")
         for _ in range(60):
             command = [rapidc, "run", module, "--rate=unlimited", "--realtime", f"--home={home}", f"--state={state}"]
-            process = subprocess.Popen([*command, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            before = os.stat(state_file).st_mtime_ns if os.path.exists(state_file) else 0
-            end = time.monotonic() + 60
-            while process.poll() is None and time.monotonic() < end:
-                if os.path.exists(state_file) and os.stat(state_file).st_mtime_ns != before:
-                    break
-                time.sleep(0.01)  # until it is written for the first time
-            time.sleep(choose.random() * 0.4)
-            if process.poll() is None:
-                process.send_signal(signal.SIGKILL)
-                kills += 1
-            out, err = process.communicate()
+            process, out, err, killed = killed_run([*command, *options], state_file, choose.random() * 0.4)
+            kills += killed
             if process.returncode > 0:
                 sys.exit(err)
             check(home, state_file, saved)

@@ -4,31 +4,20 @@ none may be missing; what came after the last saved moment may come again. Print
 import os
 import random
 import re
-import signal
-import subprocess
 import sys
 import tempfile
-import time
+
+from killed_run import killed_run
 
 rapidc, module, last = sys.argv[1], sys.argv[2], int(sys.argv[3])
 choose = random.Random(11)
 number, kills, rest = 0, 0, []
 with tempfile.TemporaryDirectory() as folder:
     for _ in range(40):
-        process = subprocess.Popen([rapidc, "run", "--realtime", module, "--state=" + folder], stdout=subprocess.PIPE,
-                                   stderr=subprocess.DEVNULL, text=True)
-        state_file = os.path.join(folder, "state.json")
-        before = os.stat(state_file).st_mtime_ns if os.path.exists(state_file) else 0
-        end = time.monotonic() + 60
-        while process.poll() is None and time.monotonic() < end:
-            if os.path.exists(state_file) and os.stat(state_file).st_mtime_ns != before:
-                break
-            time.sleep(0.01)  # until it is written for the first time
-        time.sleep(choose.random() * 1.4)
-        if process.poll() is None:
-            process.send_signal(signal.SIGKILL)
-            kills += 1
-        for line in process.communicate()[0].splitlines():
+        command = [rapidc, "run", "--realtime", module, "--state=" + folder]
+        process, out, _, killed = killed_run(command, os.path.join(folder, "state.json"), choose.random() * 1.4)
+        kills += killed
+        for line in out.splitlines():
             found = re.fullmatch(r"line (\d+)", line)
             if not found:
                 rest.append(line)

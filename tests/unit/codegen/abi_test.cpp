@@ -82,7 +82,7 @@ template <class Work> bool endsWith(const char* text, Work&& work) {
     return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
 }
 
-// rt::ModuleDesc with the same fields in another order, and with one more.
+// rt::ModuleDesc with the same fields in a different order, and with one more.
 struct Reordered {
     const char* name;
     int32_t task;
@@ -215,7 +215,8 @@ TEST_CASE("a row takes values of the right kind only, each field once", "[codege
     static_assert(!CanSet<TaskRow, &TaskDesc::entry, Constant*>, "no function");
     using TypeRow = abi::Row<TypeDesc>;
     static_assert(CanSet<TypeRow, &TypeDesc::dims, std::array<int64_t, 3>>);
-    static_assert(!CanSet<TypeRow, &TypeDesc::dims, std::array<int64_t, 2>>, "another number of elements");
+    static_assert(!CanSet<TypeRow, &TypeDesc::dims, std::array<int64_t, 2>>,
+                  "a different number of elements");
     SUCCEED("the compiler has checked it");
 }
 

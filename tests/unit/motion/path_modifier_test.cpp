@@ -149,7 +149,7 @@ TEST_CASE("corrections keep to circles", "[motion][modifier]") {
     CHECK(looked > 100);
 }
 
-TEST_CASE("stopping on the path keeps the displacement, clearing the path begins anew",
+TEST_CASE("stopping on the path keeps the displacement, clearing the path begins again",
           "[motion][modifier]") {
     MotionSystem system = makeSystem();
     const auto corrections = std::make_shared<PathCorrections>();
@@ -260,7 +260,7 @@ TEST_CASE("an arm led from outside moves", "[motion][modifier]") {
     CHECK(system.currentJoints().robax[0] == Approx(0.4));
 }
 
-TEST_CASE("the TCP that is shown is that of the latest tool, also without a path", "[motion][modifier]") {
+TEST_CASE("the TCP that is shown is that of the latest tool, even without a path", "[motion][modifier]") {
     MotionSystem system = makeSystem();
     MoveCommand command = lineBy(system, {0, 20, 0});
     command.frames.tool.tframe.pos = {0, 0, 100};

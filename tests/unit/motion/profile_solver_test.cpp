@@ -133,9 +133,10 @@ Problem randomProblem(std::mt19937_64& random) {
             between(20'000, 120'000)};
 }
 
+constexpr int kSteps = 4000;
+
 /// The shortest time without limits of jerk, on a fine grid: backward from rest, forward from rest.
 double durationWithoutJerk(const Problem& problem) {
-    constexpr int kSteps = 4000;
     const double h = problem.length / kSteps;
     const double cap = problem.speed * problem.speed;
     std::vector<std::array<std::array<double, 2>, 3>> rows(kSteps);
@@ -196,7 +197,7 @@ double durationWithoutJerk(const Problem& problem) {
     return duration;
 }
 
-/// The optimum with limits of jerk by another way: squares of the speed at places that are dense near rest, differences
+/// The optimum with limits of jerk by a different way: squares of the speed at places that are dense near rest, differences
 /// between them, and a barrier with Newton steps on full matrices.
 class Reference {
   public:

@@ -113,7 +113,7 @@ TEST_CASE("query: optional arguments that are neither given nor excluded", "[que
     CHECK(item(complete(program, 1), "loud").insertText == "loud");
 }
 
-TEST_CASE("query: components after a dot, also of what is not complete", "[query][completion]") {
+TEST_CASE("query: components after a dot, even of what is not complete", "[query][completion]") {
     const Program program(
         {inMain("count:=p10.$1;\ncount:=p10.trans.$2\ncount:=points{1}.tr$3;\nrec.$4\nnothing.$5",
                 std::string(kCell) + "RECORD part\nnum width;\nstring name;\nENDRECORD\n"

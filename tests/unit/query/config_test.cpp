@@ -74,7 +74,7 @@ TEST_CASE("query: attributes that an instance does not have yet", "[query][confi
     CHECK(has(labels, "Access"));
     CHECK_FALSE(has(labels, "Name"));
     CHECK_FALSE(has(labels, "SignalType"));
-    CHECK_FALSE(has(labels, "MotionTask")); // of another type
+    CHECK_FALSE(has(labels, "MotionTask")); // of a different type
 }
 
 TEST_CASE("query: values of attributes", "[query][config]") {

@@ -125,7 +125,7 @@ TEST_CASE("forward of inverse gives the pose, and every posture is found again",
             worstJoint = std::max(worstJoint, best < 1 ? best : 0.0);
             if (best > 1e-6) ++missing;
         }
-        CHECK(worstPosition < 1e-8); // mm, also at the edge of reach, where the root loses half of its digits
+        CHECK(worstPosition < 1e-8); // mm, even at the edge of reach, where the root loses half of its digits
         CHECK(worstTurn < 1e-6);
         CHECK(worstJoint < 1e-8);
         CHECK(missing == 0);

@@ -346,7 +346,7 @@ TEST_CASE("limits, reach and nonsense give reasons and never a crash", "[robot][
         (void)kinematics.inverse(kinematics.forward(zero), {}, badSeed);
         (void)kinematics.inverseContinue(kinematics.forward(zero), badSeed, out);
         (void)kinematics.configuration(badSeed);
-        (void)kinematics.forward(Joints{1, 2}); // another number of axes
+        (void)kinematics.forward(Joints{1, 2}); // a different number of axes
     }
     CHECK_FALSE(Kinematics().inverseNear({{100, 0, 0}, {}}, {}).hasValue()); // no arm at all
 }

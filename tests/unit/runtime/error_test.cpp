@@ -165,7 +165,7 @@ TEST_CASE("RETRY is allowed four times for the same statement", "[errors]") {
     CHECK(run.count(EventId::RetryExceeded) == 1);
 }
 
-TEST_CASE("a new call of a routine counts its RETRYs anew", "[errors]") {
+TEST_CASE("a new call of a routine counts its RETRYs again", "[errors]") {
     static const Routine main("main", 3), flaky("flaky", 5, 3);
     Run run;
     run.task("T", [](TaskCore* core, Frame* caller) -> Status {

@@ -196,7 +196,7 @@ TEST_CASE("no value is offered where data is passed on", "[sema]") {
           Fixes{"RAP4011 at 6:3: argument 'a' of 'p' is 'num', expected 'num{*}'"});
 }
 
-TEST_CASE("arguments change places for certain only where no other order fits", "[sema]") {
+TEST_CASE("arguments are swapped for certain only where no other order fits", "[sema]") {
     const std::string text = "PROC p(num a, num b, string c) ENDPROC PROC q(num a, string c) ENDPROC";
     CHECK(fixesOf(text, "p \"x\", 1, 2;") == Fixes{"?p 2, 1, \"x\";"});
     CHECK(fixesOf(text, "q \"x\", 1;") == Fixes{"q 1, \"x\";"});
@@ -228,7 +228,7 @@ TEST_CASE("a constant without value as dimension is one message", "[sema]") {
 }
 
 // Inputs and outputs, single signals and groups have instructions of their own (manual 1.8).
-TEST_CASE("a signal of another kind names the instruction that takes it", "[sema]") {
+TEST_CASE("a signal of a different kind names the instruction that takes it", "[sema]") {
     const auto messages = [](const std::string& body) {
         CheckOptions options;
         options.configurationKnown = true;

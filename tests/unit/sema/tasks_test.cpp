@@ -125,10 +125,11 @@ TEST_CASE("tasks have names of their own but share global persistents", "[sema]"
         "  PERS num list{4};\n  LOCAL PERS bool mine := TRUE;\n  RECORD part\n    num x;\n  "
         "ENDRECORD\n  PERS part record1;\nENDMODULE\n";
     const auto checked = checkTasks({{first}, {second}});
-    CHECK(checked->messages() == Messages{"RAP6004 at 3:13: global persistent 'shared' is 'bool', but 'num' "
-                                          "in another task: declare both alike, or TASK PERS",
-                                          "RAP6004 at 5:12: global persistent 'list' is 'num{4}', but "
-                                          "'num{3}' in another task: declare both alike, or TASK PERS"});
+    CHECK(checked->messages() ==
+          Messages{"RAP6004 at 3:13: global persistent 'shared' is 'bool', but 'num' "
+                   "in another task: declare both with the same type, or as TASK PERS",
+                   "RAP6004 at 5:12: global persistent 'list' is 'num{4}', but "
+                   "'num{3}' in another task: declare both with the same type, or as TASK PERS"});
     CHECK(checked->program->tasks.size() == 2);
 }
 
@@ -144,7 +145,7 @@ TEST_CASE("records of one name that differ between tasks are reported with their
         return checkTasks({{shared("num x;", "1")}, {shared(part, value)}})->messages();
     };
     const std::string start = "RAP6004 at 9:14: global persistent 'a' is ",
-                      end = " in another task: declare both alike, or TASK PERS";
+                      end = " in another task: declare both with the same type, or as TASK PERS";
     CHECK(check("num X;", "1").empty());
     CHECK(check("dnum x;", "1") ==
           Messages{start + "'whole (place.x is dnum)', but 'whole (place.x is num)'" + end,

@@ -175,7 +175,7 @@ TEST_CASE("orders that follow a pointer to line wait until it is there", "[servi
     CHECK(served.value("x") == "10"); // execution began in line 8
 }
 
-TEST_CASE("a restart keeps persistents; a cold one begins anew", "[service]") {
+TEST_CASE("a restart keeps persistents; a cold one begins again", "[service]") {
     Served served(kCounter);
     served.ask([](VirtualController& c) { return c.setMotors(true); });
     served.ask([](VirtualController& c) { return c.setRunOnce(true); });
@@ -302,7 +302,7 @@ ENDMODULE
     CHECK(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
     CHECK(served.comes([&](VirtualController& c) { return c.cycles().cycles > 10 && isIdle(c); }));
     const auto seen = served.ask([](VirtualController& c) { return c.cycles(); });
-    CHECK(seen.missed == 0); // virtual time does not keep step with the wall clock
+    CHECK(seen.missed == 0); // virtual time does not keep pace with the wall clock
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     CHECK(served.ask([](VirtualController& c) { return c.cycles().cycles; }) == seen.cycles);
 }

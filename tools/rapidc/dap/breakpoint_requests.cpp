@@ -41,11 +41,7 @@ std::function<std::string()> readerOf(Context& context, const std::string& name,
 } // namespace
 
 void BreakpointRequests::addTo(Handlers& handlers) {
-    const auto add = [&](const char* name, Json (BreakpointRequests::*handler)(const Arguments&)) {
-        handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
-            return std::optional<Json>((this->*handler)(arguments));
-        };
-    };
+    const auto add = registrar(handlers, *this);
     add("setBreakpoints", &BreakpointRequests::setBreakpoints);
     add("setFunctionBreakpoints", &BreakpointRequests::setFunctionBreakpoints);
     add("setDataBreakpoints", &BreakpointRequests::setDataBreakpoints);

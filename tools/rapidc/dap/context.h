@@ -54,4 +54,13 @@ struct Context {
 using Handler = std::function<std::optional<Json>(const Request& request, const Arguments& arguments)>;
 using Handlers = std::map<std::string, Handler>;
 
+/// Registers member functions of `owner` as handlers: registrar(handlers, *this)("next", &Owner::stepOver).
+template <class Owner> auto registrar(Handlers& handlers, Owner& owner) {
+    return [&handlers, &owner](const char* name, Json (Owner::*member)(const Arguments&)) {
+        handlers[name] = [&owner, member](const Request&, const Arguments& arguments) {
+            return std::optional<Json>((owner.*member)(arguments));
+        };
+    };
+}
+
 } // namespace rapidc::dap

@@ -32,11 +32,7 @@ const rt::StmtDesc* firstStatement(const rt::RoutineDesc& routine) {
 } // namespace
 
 void ExecutionRequests::addTo(Handlers& handlers) {
-    const auto add = [&](const char* name, Json (ExecutionRequests::*handler)(const Arguments&)) {
-        handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
-            return std::optional<Json>((this->*handler)(arguments));
-        };
-    };
+    const auto add = registrar(handlers, *this);
     add("threads", &ExecutionRequests::threads);
     add("continue", &ExecutionRequests::continueProgram);
     add("next", &ExecutionRequests::stepOver);

@@ -51,7 +51,7 @@ class ExpressionCompiler {
 
   private:
     struct Draft;
-    /// When modules have come or gone, everything is compiled anew.
+    /// When modules have come or gone, everything is compiled again.
     void followMemory();
     void openSession();
     bool check(Draft& draft, std::string& problem);

@@ -43,11 +43,7 @@ InspectionRequests::InspectionRequests(Context& context) : context_(context), va
 }
 
 void InspectionRequests::addTo(Handlers& handlers) {
-    const auto add = [&](const char* name, Json (InspectionRequests::*handler)(const Arguments&)) {
-        handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
-            return std::optional<Json>((this->*handler)(arguments));
-        };
-    };
+    const auto add = registrar(handlers, *this);
     add("stackTrace", &InspectionRequests::stackTrace);
     add("scopes", &InspectionRequests::scopes);
     add("exceptionInfo", &InspectionRequests::exceptionInfo);

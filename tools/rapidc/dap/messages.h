@@ -21,7 +21,7 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The arguments of a request. All functions throw a Refusal when a value is missing or of another type.
+/// The arguments of a request. All functions throw a Refusal when a value is missing or of a different type.
 class Arguments {
   public:
     /// `json` must outlive this; anything but an object counts as one without members. `prefix`: its place, for people.

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/sim/operator_panel.h"
+#include "tools/service/dialog_names.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,23 +14,11 @@ namespace {
 
 using Open = rt::OperatorPanel::OpenDialog;
 
-constexpr std::size_t kLongestText = 80; // of a RAPID string
-
-const char* kindOf(const rt::Dialog& dialog) {
-    switch (dialog.kind) {
-    case rt::DialogKind::Choice: return "choice";
-    case rt::DialogKind::Number: return "number";
-    case rt::DialogKind::Text: return "text";
-    case rt::DialogKind::List: break;
-    }
-    return "list";
-}
-
 Json describe(const Open& open) {
     const rt::Dialog& dialog = *open.dialog;
     Json json{{"id", open.number},
               {"instruction", dialog.instruction},
-              {"kind", kindOf(dialog)},
+              {"kind", service::nameOf(dialog.kind)},
               {"header", dialog.header},
               {"lines", dialog.lines},
               {"choices", dialog.kind == rt::DialogKind::List ? dialog.items : dialog.choices},
@@ -63,9 +52,9 @@ std::string typed(const rt::Dialog& dialog, const std::string& answer) {
     }
     case rt::DialogKind::Text: break;
     }
-    if (answer.size() > kLongestText)
-        throw Refusal(fmt::format("a text has at most {} characters", kLongestText));
-    return "\"" + answer + "\""; // as it is, also when it is empty
+    if (answer.size() > rt::kStringCapacity)
+        throw Refusal(fmt::format("a text has at most {} characters", rt::kStringCapacity));
+    return "\"" + answer + "\""; // as it is, even when it is empty
 }
 
 } // namespace

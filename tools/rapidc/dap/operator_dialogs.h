@@ -17,7 +17,7 @@ class OperatorDialogs {
     void begin(bool answered);
     /// Its controller leaves.
     void end() { isOn_ = false; }
-    /// Sends the client which dialogs were opened and closed since the last call. While one is open, virtual time keeps step with
+    /// Sends the client which dialogs were opened and closed since the last call. While one is open, virtual time keeps pace with
     /// the clock and the run does not end because all tasks wait.
     void look();
 

@@ -45,11 +45,7 @@ Session::Session(protocol::Channel& channel, rt::Inbox& inbox, StrayOutput& stra
     execution_.addTo(handlers_);
     sources_.addTo(handlers_);
     dialogs_.addTo(handlers_);
-    const auto add = [this](const char* name, Json (Session::*handler)(const Arguments&)) {
-        handlers_[name] = [this, handler](const Request&, const Arguments& arguments) {
-            return std::optional<Json>((this->*handler)(arguments));
-        };
-    };
+    const auto add = registrar(handlers_, *this);
     add("initialize", &Session::initialize);
     add("configurationDone", &Session::configurationDone);
     handlers_["disconnect"] = [this](const Request& request, const Arguments&) {

@@ -18,11 +18,7 @@ int64_t libraryReference(std::string_view name) {
 }
 
 void SourceRequests::addTo(Handlers& handlers) {
-    const auto add = [&](const char* name, Json (SourceRequests::*handler)(const Arguments&)) {
-        handlers[name] = [this, handler](const Request&, const Arguments& arguments) {
-            return std::optional<Json>((this->*handler)(arguments));
-        };
-    };
+    const auto add = registrar(handlers, *this);
     add("source", &SourceRequests::source);
     add("loadedSources", &SourceRequests::loadedSources);
     add("modules", &SourceRequests::modules);

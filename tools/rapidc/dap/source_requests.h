@@ -14,7 +14,7 @@ class SourceRequests {
     void addTo(Handlers& handlers);
     /// A program was made: its sources are known from the answer to loadedSources.
     void programMade();
-    /// Quick: another number of modules than at the last look() is in memory.
+    /// Quick: a different number of modules than at the last look() is in memory.
     bool hasOtherCount() const;
     /// Sends the event loadedSource for each file that has come into memory or left it since the last call.
     void look();

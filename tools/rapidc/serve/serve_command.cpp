@@ -6,6 +6,7 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/serve/serve_settings.h"
 #include "tools/rapidc/serve/serving.h"
+#include "tools/rapidc/usage.h"
 
 #include <cstdio>
 #include <fmt/format.h>
@@ -16,14 +17,10 @@ namespace {
 
 constexpr int kSignalStatus = 128; ///< what a shell adds to the number of the signal
 
-int usageError(const std::string& problem) {
-    fmt::print(stderr, "rapidc serve: {}\n", problem);
-    return static_cast<int>(rt::ExitStatus::BadUsage);
-}
-
 int serveInputs(serve::ServeSettings& settings) {
     std::vector<std::unique_ptr<rapid::config::TemporaryFolder>> folders;
-    if (const std::string problem = complete(settings, folders); !problem.empty()) return usageError(problem);
+    if (const std::string problem = complete(settings, folders); !problem.empty())
+        return usageError("serve", problem);
     const rt::StopSignals signals;
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
@@ -31,7 +28,7 @@ int serveInputs(serve::ServeSettings& settings) {
         status = controller.open();
         if (status != rt::ExitStatus::Ended) return static_cast<int>(status);
         serve::Serving serving(settings, controller);
-        if (const std::string problem = serving.open(); !problem.empty()) return usageError(problem);
+        if (const std::string problem = serving.open(); !problem.empty()) return usageError("serve", problem);
         if (serving.hasKeptParameters()) {
             status = controller.reopen();
             if (status != rt::ExitStatus::Ended) {

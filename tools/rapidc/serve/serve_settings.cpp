@@ -27,7 +27,7 @@ void addPort(const rt::Command& command, const char* name, uint16_t& port, const
         port = static_cast<uint16_t>(number);
         return {};
     };
-    command.addChecked(name, take, fmt::format("port of {}; default: any free one", of)).typeName("PORT");
+    command.addChecked(name, take, fmt::format("Port of {}; default: any free one", of)).typeName("PORT");
 }
 
 void addRobotWare(const rt::Command& command, int& version) {
@@ -39,7 +39,7 @@ void addRobotWare(const rt::Command& command, int& version) {
     };
     command
         .addChecked("--robotware", take,
-                    "the RobotWare version that clients of RWS 2.0 read: 6, 7 or 8; default 7")
+                    "The RobotWare version that clients of RWS 2.0 read: 6, 7 or 8; default 7")
         .typeName("N");
 }
 
@@ -83,28 +83,28 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
     addPort(command, "--web-port", settings.webPort, "the web page");
     command
         .add("--password", settings.password,
-             "password of the users 'Default User' and 'Admin'; default: robotics, as on a new controller")
+             "Password of the users 'Default User' and 'Admin'; default: robotics, as on a new controller")
         .typeName("TEXT");
     command
         .add("--password-file", settings.passwordFile,
-             "a file whose first line is the password, so that no list of processes shows it")
+             "A file whose first line is the password, so that no list of processes shows it")
         .typeName("FILE");
     command.addFlag("--no-program-start", settings.noProgramStart,
-                    "begin with the motors off and the program stopped at main");
+                    "Begin with the motors off and the program stopped at main");
     command.addFlag("--motors-on", settings.motorsOn,
-                    "with --no-program-start: begin with the motors on, ready for the first start");
+                    "With --no-program-start: begin with the motors on, ready for the first start");
     addRobotWare(command, controller.robotWare);
-    command.add("--backup-dir", settings.backupFolder, "the folder of $BACKUP; default: a temporary one")
+    command.add("--backup-dir", settings.backupFolder, "The folder of $BACKUP; default: a temporary one")
         .typeName("DIR");
-    command.add("--temp", settings.tempFolder, "the folder of $TEMP; default: a temporary one")
+    command.add("--temp", settings.tempFolder, "The folder of $TEMP; default: a temporary one")
         .typeName("DIR");
     command
         .add("--system-dir", settings.systemFolder,
-             "the folder of $SYSTEM: changed system parameters stay in it; default: a temporary one")
+             "The folder of $SYSTEM: changed system parameters stay in it; default: a temporary one")
         .typeName("DIR");
     command
         .add("--certificate-dir", settings.certificateFolder,
-             "the folder that keeps the certificate of HTTPS; default: one of the user")
+             "The folder that keeps the certificate of HTTPS; default: one of the user")
         .typeName("DIR");
     rt::addRunOptions(command, controller.options, true);
     addAssumeSignalsOption(command, controller.inputs);
