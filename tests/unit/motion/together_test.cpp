@@ -289,4 +289,28 @@ TEST_CASE("a robot follows the work object that the other one carries", "[motion
         CHECK(inOther().pos.z - held.pos.z == Approx(60).margin(1e-6));
         CHECK(fastest <= 400.5); // relative to the work object
     }
+    SECTION("through a corner in it") {
+        // The path relative to the work object is the same as without a carrier: two lines and a curve in their plane that
+        // keeps within their angle, and no jump of the place in it.
+        const auto order2 = [&](double x, double y, double z, bool isFlyBy) {
+            order(robot::offs(held, 0, x, y), 30, z, isFlyBy);
+        };
+        order2(0, 60, -30, true);
+        order2(60, 60, 20, false);
+        double aside = 0, fastest = 0, beyond = 0;
+        std::optional<Vec3> last;
+        for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
+            for (MotionSystem* system : pair.both)
+                system->advanceTo(time);
+            const Vec3 now = inOther().pos - held.pos;
+            aside = std::max(aside, std::abs(now.x));
+            beyond = std::max({beyond, -now.y, now.z - 60});
+            if (last) fastest = std::max(fastest, norm(now - *last) / 1e-3);
+            last = now;
+        }
+        CHECK(aside < 1e-3);
+        CHECK(beyond < 1e-3);
+        CHECK(fastest <= 404);
+        CHECK(norm(inOther().pos - held.pos - Vec3{0, 60, 60}) < 1e-6);
+    }
 }
