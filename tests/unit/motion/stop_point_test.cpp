@@ -89,8 +89,7 @@ TEST_CASE("a turning movement is at its stop point when a quarter of a degree is
         const MoveId move = system.enqueue(command).value();
         while (!system.isReleased(move))
             system.advanceTo(*system.nextEventTime());
-        const double left =
-            robot::angleBetween(system.current().tcp.rot, command.target.pose.rot) * robot::kDegreesPerRadian;
+        const double left = robot::angleBetween(system.current().tcp.rot, command.target.pose.rot);
         CHECK(left == Approx(0.25).margin(0.01));
         while (!system.isIdle() || system.isMoving())
             system.advanceTo(*system.nextEventTime());
