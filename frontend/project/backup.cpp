@@ -380,10 +380,13 @@ class BackupLoader {
 
     fs::path inHome(std::string_view file) const {
         const size_t colon = file.find(':');
-        if (colon == std::string_view::npos || !sameName(file.substr(0, colon), "HOME") || home_.empty())
-            return {};
-        const fs::path path = findPath(home_, file.substr(colon + 1));
-        return isFolder(path) || !isModule(path) ? fs::path() : path;
+        if (colon == std::string_view::npos || !sameName(file.substr(0, colon), "HOME")) return {};
+        for (const fs::path& home : {fs::path(out_.chosenHome), home_}) {
+            if (home.empty()) continue;
+            fs::path path = findPath(home, file.substr(colon + 1));
+            if (!path.empty() && !isFolder(path) && isModule(path)) return path;
+        }
+        return {};
     }
 
     // ---- Report ----------------------------------------------------------------------------------------------------

@@ -100,16 +100,18 @@ class FolderLoader {
         return {};
     }
 
-    /// "HOME:/lib/x.sys" lies in HOME/lib of the folder, in lib, or in the folder itself.
+    /// "HOME:/lib/x.sys" lies in lib of the chosen $HOME, in HOME/lib of the folder, in lib, or in the folder itself.
     fs::path locate(const std::string& file) const {
         const size_t colon = file.find(':');
         const std::string_view inside = withoutVolume(file);
         const std::string_view name = inside.substr(inside.find_last_of("/\\") + 1);
         const fs::path volume =
             colon == std::string::npos ? fs::path() : findEntry(folder_, file.substr(0, colon));
+        const bool isInHome = colon != std::string::npos && sameName(file.substr(0, colon), "HOME");
+        const fs::path chosen = isInHome ? fs::path(out_.chosenHome) : fs::path();
         for (const fs::path& found :
-             {moduleAt(volume, inside), moduleAt(folder_, inside), moduleAt(folder_, name),
-              moduleAt(volume, name), moduleAt(findEntry(folder_, "HOME"), name)})
+             {moduleAt(chosen, inside), moduleAt(volume, inside), moduleAt(folder_, inside),
+              moduleAt(folder_, name), moduleAt(volume, name), moduleAt(findEntry(folder_, "HOME"), name)})
             if (!found.empty()) return found;
         return {};
     }

@@ -26,6 +26,9 @@ struct ProjectInput {
     std::vector<std::string> sharedFiles; ///< modules that a backup holds once for all tasks (TASK0), by path
     std::string robot;                    ///< model that a backup names only among its options; else empty
     std::string homeFolder;               ///< HOME of a backup; empty if there is none
+    /// Set before: the folder of $HOME where one was chosen. Modules that the configuration loads from HOME: are sought
+    /// there before the HOME of the input.
+    std::string chosenHome;
     bool isBackup = false;
     std::vector<std::string> filesRead; ///< modules, programs and what else was opened
 };

@@ -76,6 +76,7 @@ std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment&
     readWarningLevels(inputs, *compilation);
     if (!compilation->usageErrors.empty()) return compilation;
     project::ProjectInput input;
+    input.chosenHome = inputs.home;
     if (!inputs.paths.empty())
         project::loadProject(inputs.paths, specs, input, compilation->sink, inputs.texts);
     std::vector<std::string> configFiles = inputs.configFiles;

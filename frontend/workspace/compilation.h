@@ -22,6 +22,7 @@ struct Inputs {
     std::vector<std::string> robots;      ///< --robot, [UNIT=]MODEL; an unknown one is wrong usage
     std::vector<std::string> conveyors;   ///< --conveyor, UNIT=KEY:VALUE,...
     std::vector<std::string> cameras;     ///< --camera, NAME=FILE
+    std::string home;                     ///< --home; "" when none was chosen
     bool requireMain = false;
     std::vector<std::string> warnings; ///< -W
     bool lint = false;                 ///< with the warnings of 8xxx, also where -W does not name them

@@ -353,7 +353,9 @@ std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t lin
 std::string Debugger::pointerToLine(Task& task, uint32_t line) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     State& state = stateOf(task);
-    if (state.standing == nullptr) return "the task is not stopped before an instruction: step it first";
+    // Activations that are about to be left, after a move to another routine, have no program pointer any more.
+    if (state.standing == nullptr || task.isUnwinding())
+        return "the task is not stopped before an instruction: step it first";
     const RoutineDesc& routine = *state.standing->routine;
     for (uint32_t s = 0; s < routine.statementCount; ++s) {
         const StmtDesc& statement = routine.statements[s];

@@ -184,6 +184,23 @@ class Killed(ServeCase):
             with open(os.path.join(other, f"f{number}"), "rb") as file:
                 self.assertEqual(file.read(), data)
 
+    def test_rests_of_a_killed_process_go(self):
+        """Line 4: what a killed process had not completed is not a file of the volume: the next one removes it."""
+        other = os.path.join(self.folder, "rests")
+        rests = ["sub/.upload.rapidc-1-000018.tmp", ".M.mod.rapidc-1-IboSFx.tmp", ".backup1.rapidc-1-x0NXos/HOME/f"]
+        kept = ["sub/.profile", "M.mod"]
+        for name in rests + kept:
+            path = os.path.join(other, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "wb") as file:
+                file.write(b"x")
+        server = Serve(os.path.join(self.folder, "inputs"), options=(f"--home={other}",))
+        self.assertEqual(server.stop(), 143)
+        server.errors.close()
+        found = [os.path.relpath(os.path.join(folder, name), other) for folder, _, names in os.walk(other) for name in names]
+        self.assertEqual(sorted(found), sorted(kept))
+        self.assertEqual(sorted(os.listdir(other)), ["M.mod", "sub"])
+
 
 if __name__ == "__main__":
     main()

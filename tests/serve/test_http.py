@@ -280,6 +280,17 @@ class Ending(ServeCase):
         for each in (half, secure, socket_, client):
             each.close()
 
+    def test_motors_on_and_the_program_stopped(self):
+        """Contract 5 with --motors-on: stopped at main, and a client may start it at once."""
+        server = Serve(self.inputs(), options=("--no-program-start", "--motors-on"))
+        client = server.client(1)
+        self.assertEqual(client.get("/rw/panel/ctrlstate").values()["ctrlstate"], "motoron")
+        self.assertEqual(client.get("/rw/rapid/execution").values()["ctrlexecstate"], "stopped")
+        form = {"regain": "continue", "execmode": "continue", "cycle": "forever", "condition": "none"}
+        self.assertEqual(client.act("/rw/rapid/execution", "start", form).status, 204)
+        client.close()
+        self.assertEqual(server.stop(), 143)
+
     def test_one_line_on_stdout(self):
         server = Serve(self.inputs())
         self.assertEqual(sorted(server.addresses), ["http", "https", "web"])

@@ -96,6 +96,20 @@ class Motion(ServeCase):
             cartesian = client.get(UNIT + "/cartesian").values()
             self.assertEqual(numbers(cartesian, names), at)
 
+    def test_poses_of_axes(self):
+        """2.3 (axes/N): the frame of an axis has z along it; axis 1 turns about the vertical, axis 2 leans the arm forward (about y)."""
+        self.teleport(self.mover(2), [0, 10, 20, 0, 30, 0])
+        for client in self.both():
+            for path in [UNIT + "/axes/{}?resource=pose"] + ([UNIT + "/axes/{}/pose"] if client.dialect == 2 else []):
+                for axis, wanted in ((1, (0, 0, 1)), (2, (0, 1, 0)), (3, (0, 1, 0)), (5, (0, 1, 0))):
+                    pose = client.get(path.format(axis)).values("ms-mechunit-axispose")
+                    w, x, y, z = numbers(pose, ["q1", "q2", "q3", "q4"])
+                    along = (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y))
+                    for found, value in zip(along, wanted):
+                        self.assertAlmostEqual(found, value, 6, (path, axis))
+                self.assertEqual(numbers(client.get(path.format(1)).values(), ["x", "y"]), [0, 0])
+                self.assertEqual(client.get(path.format(9)).status, 404)
+
     def test_other_resources(self):
         """Line 22: baseframe, axes (six entries at least), errorstate, motionsupervision, lead-through."""
         for client in self.both():
@@ -104,6 +118,7 @@ class Motion(ServeCase):
             self.assertGreaterEqual(len(client.get(UNIT + "/axes").entries()), 6)
             self.assertEqual(client.get(UNIT + "/axes/3").status, 200)
             self.assertEqual(client.get(UNIT + "/axes/9").status, 404)
+            self.assertIn(client.get(UNIT + "/smbdata").status, (403, 404))  # an ideal robot has none
             self.assertTrue(client.get("/rw/motionsystem/errorstate").values("ms-errorstate")["err-state"])
             self.assertIn("mode", client.get(UNIT + "/motionsupervision").values())
             self.assertIn("ccount", client.get("/rw/motionsystem?resource=change-count").values())

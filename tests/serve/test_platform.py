@@ -6,6 +6,19 @@ import ssl
 from serve_testing import Serve, ServeCase, main
 
 
+SYS_WITH_HOME = """SYS:CFG_1.0:7:0::
+#
+CAB_TASKS:
+
+      -Name "T_ROB1" -Type "NORMAL" -MotionTask
+
+      -Name "T_BACK" -Type "SEMISTATIC"
+#
+CAB_TASK_MODULES:
+
+      -File "HOME:/lib/Back.modx" -ModName "Back" -Task "T_BACK"
+"""
+
 class Platform(ServeCase):
     OPTIONS = ("--no-program-start",)
 
@@ -156,6 +169,25 @@ class Kept(ServeCase):
             return ssl.get_server_certificate(("127.0.0.1", server.port("https")))
         self.assertEqual(self.run_once(certificate), self.run_once(certificate))
         self.assertEqual(os.stat(f"{self.folder}/certificate/server.pem").st_mode & 0o777, 0o600)
+
+    def test_modules_that_the_configuration_loads_from_home(self):
+        """6.2: CAB_TASK_MODULES with File "HOME:/x"; contract 4: $HOME is the folder of --home."""
+        inputs, home = f"{self.folder}/configured", f"{self.folder}/own_home"
+        texts = {f"{inputs}/SYS.cfg": SYS_WITH_HOME, f"{inputs}/Main.modx": "MODULE Main_1\n  PROC main()\n    Stop;\n  ENDPROC\nENDMODULE\n",
+                 f"{home}/lib/Back.modx": "MODULE Back\n  PROC main()\n    WaitTime 1;\n  ENDPROC\nENDMODULE\n"}
+        for name, text in texts.items():
+            os.makedirs(os.path.dirname(name), exist_ok=True)
+            with open(name, "w", encoding="utf-8") as file:
+                file.write(text)
+        server = Serve(inputs, options=(f"--home={home}", "--no-program-start"))
+        client = server.client(1)
+        try:
+            self.assertEqual([entry.title for entry in client.get("/rw/rapid/tasks").entries("rap-task-li")], ["T_ROB1", "T_BACK"])
+            modules = client.get("/rw/rapid/modules?task=T_BACK").entries("rap-module-info-li")
+            self.assertIn("Back", [entry.values["name"] for entry in modules])
+        finally:
+            client.close()
+            self.assertEqual(server.stop(), 143)
 
     def test_system_parameters(self):
         def create(_, client):

@@ -108,6 +108,19 @@ class Execution(RapidCase):
         self.assertEqual(client.post(f"{TASK}/pcp/reset").status, 204)
         self.wait_position(client, "7,5")
 
+    def test_to_a_line_right_after_to_another_routine(self):
+        """25 and 31: pcp/cursor holds whatever the order before it was, and pcp shows it at once."""
+        client = self.master(1)
+        self.reset(client)
+        for _ in range(30):
+            form = {"module": "M", "routine": "part"}
+            self.assertEqual(client.act(f"{TASK}/pcp", "set-pp-routine", form).status, 204)
+            form = {"module": "M", "begin-position-row": "7", "begin-position-col": "5"}
+            self.assertEqual(client.act(f"{TASK}/pcp", "set-pp-cursor", form).status, 204)
+            self.assertEqual(self.position(client)["beginposition"], "7,5")
+        self.wait_stopped(client)
+        self.wait_position(client, "7,5")
+
     def test_start_and_stop(self):
         """2.3: forms of start and stop; 2.2: -1073442809 start refused (400)."""
         for client in self.masters():
@@ -163,6 +176,14 @@ class Execution(RapidCase):
         self.assertEqual(self.start(client, stopatbp="enabled").status, 204)
         self.wait_position(client, "9,5")
         self.wait_stopped(client)
+        self.reset(client)  # stopatbp=disabled is of one start
+        self.assertEqual(self.start(client, stopatbp="disabled").status, 204)
+        self.wait_stopped(client)
+        self.assertEqual(self.position(client)["beginposition"], "11,5")  # after Stop
+        self.reset(client)
+        self.assertEqual(self.start(client).status, 204)
+        self.wait_stopped(client)
+        self.assertEqual(self.position(client)["beginposition"], "9,5")
         self.assertEqual(client.delete(path + "?module=M&row=9&column=1").status, 204)
         self.assertEqual(client.delete(path + "?module=M&row=9&column=1").status, 400)
         self.assertEqual(client.get(path).entries(), [])

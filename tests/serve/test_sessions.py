@@ -58,6 +58,23 @@ class Digest(ServeCase):
             self.assertEqual(response.status, 200, counter)
             client.cookies = response.cookies()
 
+    def test_clients_that_share_a_connection(self):
+        """Contract 12: who logs on gets a session, also over the connection of another; 37: mastership is of the session."""
+        first, second = self.client(), self.client()
+        for each in (first, second):
+            each.connection = first.connection
+            authorization = each.digest(self.challenge(each), "GET", PATH)
+            each.cookies = self.answer(each, authorization).cookies()
+        self.assertNotEqual(first.cookies["-http-session-"], second.cookies["-http-session-"])
+        domain = "/rw/mastership/motion"
+        self.assertEqual(first.act(domain, "request").status, 204)
+        refused = second.act(domain, "request")
+        self.assertEqual((refused.status, refused.code()), (403, -1073445862))
+        self.assertEqual(first.act(domain, "release").status, 204)
+        self.assertEqual(second.act(domain, "request").status, 204)
+        self.assertEqual(second.act(domain, "release").status, 204)
+        second.connection = None
+
     def test_the_uri_must_be_the_one_of_the_request(self):
         client = self.client()
         authorization = client.digest(self.challenge(client), "GET", "/rw/panel/ctrlstate")

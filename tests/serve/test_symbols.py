@@ -66,6 +66,12 @@ class Values(RapidCase):
                     self.assertEqual([(entry.type, entry.values["value"]) for entry in found], [("rap-data", value)])
         self.in_all_forms(data(1, "T_ROB1/M/both"), data(2, "T_ROB1/M/both"))
 
+    def test_strings_in_xhtml(self):
+        """2.2: values travel as RAPID writes them, "text", for clients that use regular expressions."""
+        for dialect in (1, 2):
+            response = self.client(dialect, form="xhtml").get(data(dialect, "T_ROB1/M/word"))
+            self.assertIn(b'<span class="value">"text"</span>', response.body)
+
     def test_one_encoded_segment(self):
         """28: the slashes of a symbol may be encoded."""
         client = self.client(2)

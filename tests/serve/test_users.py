@@ -19,6 +19,21 @@ class Users(RapidCase):
         self.assertEqual(client.post("/users", {"username": "x" * 81}).status, 400)
         self.assertIn(client.post("/users/register", form).status, (200, 201, 204))
 
+    def test_one_entry_for_each_session(self):
+        """2.3: /users are those who are logged on; contract 12: a login makes a session, /logout ends it."""
+        reader = self.client(1)
+
+        def count():
+            return len(reader.get("/users").entries("user-li"))
+        before = count()
+        others = self.both()
+        for number, other in enumerate(others, 1):
+            other.get("/rw/system")
+            self.assertEqual(count(), before + number)
+        for other in others:
+            other.get("/logout")
+        self.eventually(lambda: count() == before)
+
     def test_grants(self):
         """Contract 8: all grants, in both dialects; 22: user-grant | uas-grant, grant-info."""
         names = [entry.title for entry in self.client(1).get("/users/grants").entries("user-grant")]

@@ -5,7 +5,6 @@
 #include "tools/pendant/areas.h"
 #include "tools/pendant/hub.h"
 #include "tools/pendant/support.h"
-#include "tools/service/breakpoint_list.h"
 
 #include <set>
 
@@ -48,7 +47,7 @@ const char* stateOf(const rt::Task& task) {
 class ExecutionArea final : public Area {
   public:
     explicit ExecutionArea(const Context& context)
-        : controller_(context.controller), breakpoints_(context.breakpoints), hub_(context.hub) {
+        : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
         observer.changed = [this](Change change, const rt::Task* task) { note(change, task); };
         observer_ = controller_.observers().add(std::move(observer));
@@ -71,7 +70,6 @@ class ExecutionArea final : public Area {
     Json start(const Json& params);
 
     service::VirtualController& controller_;
-    service::BreakpointList& breakpoints_;
     Hub& hub_;
     service::Observers::Token observer_ = 0;
     bool areTasksChanged_ = false;
@@ -126,7 +124,6 @@ Json ExecutionArea::start(const Json& params) {
     const ExecutionMode mode =
         has(params, "mode") ? wordOf(params, "mode", kStarts) : ExecutionMode::Continue;
     rt::Task* task = has(params, "task") ? &taskOf(controller_, params) : nullptr;
-    breakpoints_.setStopping(true); // another client may have started without them
     refuseUnless(controller_.start(mode, task));
     return {};
 }

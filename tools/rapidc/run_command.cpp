@@ -86,6 +86,7 @@ int run(RunSettings& settings) {
     inputs.robots = settings.options.robots;
     inputs.conveyors = settings.options.conveyors;
     inputs.cameras = settings.options.cameras;
+    inputs.home = settings.options.home;
     inputs.requireMain = true;
     auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {

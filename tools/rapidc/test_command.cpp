@@ -283,6 +283,7 @@ std::string listed(const std::vector<std::string>& texts) {
 int test(TestSettings& settings) {
     Inputs& inputs = settings.inputs;
     inputs.cameras = settings.options.cameras;
+    inputs.home = settings.options.home;
     const auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) return usageError(compilation->usageErrors.front());
     if (!compilation->program || compilation->program->tasks.empty()) {

@@ -5,6 +5,8 @@
 #include "tools/http/url.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 
 namespace rapidc::rws {
@@ -13,7 +15,7 @@ namespace {
 
 constexpr std::string_view kRealm = DigestGuard::kRealm;
 constexpr int kIterations = 30'000; // about 10 ms
-constexpr int kTriesPerSecond = 10;
+constexpr int kShare = 10;          // deriving may take a tenth of the time
 
 std::optional<std::string_view> afterScheme(std::string_view header, std::string_view scheme) {
     if (header.size() <= scheme.size() || header[scheme.size()] != ' ' ||
@@ -51,23 +53,29 @@ std::string Accounts::checkBasic(std::string_view authorization, bool& isBusy) {
     isBusy = !mayTry();
     if (isBusy) return {};
     if (found == users_.end()) { // takes as long as a wrong password
-        (void)http::derivePassword(password, key_, kIterations);
+        (void)derive(password, key_);
         return {};
     }
     User& user = found->second;
-    if (!http::equalSecrets(http::derivePassword(password, user.salt, kIterations), user.derived)) return {};
+    if (!http::equalSecrets(derive(password, user.salt), user.derived)) return {};
     user.verified = proof;
     return found->first;
 }
 
-/// Deriving a key from a wrong password is slow on purpose, and everyone waits meanwhile: so it is not done often.
+/// Deriving a key from a wrong password is slow on purpose, and everyone waits meanwhile: so it has a share of the time, also on a
+/// computer that is busy with other things.
 bool Accounts::mayTry() {
     const auto now = Clock::now();
-    if (now - triesBegan_ > std::chrono::seconds(1)) {
-        triesBegan_ = now;
-        tries_ = 0;
-    }
-    return ++tries_ <= kTriesPerSecond;
+    credit_ = std::min(kMostCredit, credit_ + (now - lastTry_) / kShare);
+    lastTry_ = now;
+    return credit_ > Clock::duration::zero();
+}
+
+std::string Accounts::derive(const std::string& password, const std::string& salt) {
+    const auto began = Clock::now();
+    std::string derived = http::derivePassword(password, salt, kIterations);
+    credit_ -= Clock::now() - began;
+    return derived;
 }
 
 std::string Accounts::digestChallenge(bool stale) {
@@ -83,6 +91,12 @@ std::string Accounts::checkDigest(std::string_view authorization, std::string_vi
     const DigestGuard::Answer answer = digest_.check(authorization, method, target, secretOf);
     stale = answer.verdict == DigestGuard::Verdict::Stale;
     return answer.verdict == DigestGuard::Verdict::Right ? answer.user : std::string();
+}
+
+std::string Accounts::digestNonce(std::string_view authorization) {
+    const auto fields = parseAuthorization(authorization, "Digest");
+    const auto found = fields.find("nonce");
+    return found == fields.end() ? std::string() : found->second;
 }
 
 } // namespace rapidc::rws

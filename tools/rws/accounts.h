@@ -24,6 +24,8 @@ class Accounts {
     /// more, so the client may try again with a new one.
     std::string checkDigest(std::string_view authorization, std::string_view method, std::string_view target,
                             bool& stale);
+    /// The nonce that an answer of HTTP digest names, "" without one.
+    static std::string digestNonce(std::string_view authorization);
     /// Value of WWW-Authenticate with a new nonce.
     std::string digestChallenge(bool stale);
     static std::string basicChallenge();
@@ -35,12 +37,14 @@ class Accounts {
         std::string verified;      ///< proof of the header accepted last, so that it is derived once
     };
     bool mayTry();
+    std::string derive(const std::string& password, const std::string& salt);
 
     std::map<std::string, User, std::less<>> users_;
     DigestGuard digest_;
     std::string key_; ///< of the proofs
-    Clock::time_point triesBegan_;
-    int tries_ = 0; ///< within a second
+    static constexpr Clock::duration kMostCredit = std::chrono::milliseconds(500);
+    Clock::time_point lastTry_;
+    Clock::duration credit_ = kMostCredit; ///< time that deriving may take
 };
 
 } // namespace rapidc::rws

@@ -124,8 +124,9 @@ Reply Execution::start(const Request& request) {
     const std::string cycle = request.form.text("cycle");
     const bool once = cycle == "once" || (cycle != "forever" && before);
     if (once != before) (void)controller_.setRunOnce(once);
-    breakpoints_.setStopping(request.form.text("stopatbp") != "disabled");
+    const bool stoppedBefore = breakpoints_.setStopping(request.form.text("stopatbp") != "disabled");
     const service::Refusal refusal = controller_.start(*mode);
+    if (!refusal.empty()) breakpoints_.setStopping(stoppedBefore);
     if (!refusal.empty() && once != before) (void)controller_.setRunOnce(before);
     return replyTo(refusal, ReturnCode::StartRefused);
 }

@@ -154,7 +154,8 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
 }
 
 std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head& head, Visit& visit) {
-    Sessions::LoggedOn* session = sessions_.find(head.cookie(kSessionCookie), dialect);
+    const std::string cookie(head.cookie(kSessionCookie));
+    Sessions::LoggedOn* session = sessions_.find(cookie, dialect);
     if (session == nullptr) {
         if (head.asksForSocket()) {
             http::Response response = challenge(dialect, false);
@@ -169,12 +170,16 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
             return errorResponse(503, "too many wrong passwords at a time: try again", Form::Xhtml,
                                  contextOf(dialect, head, visit.path));
         if (user.empty()) return challenge(dialect, stale);
-        session = sessions_.ofConnection(head.connection, user);
+        // Clients of one process may share a connection: one that keeps cookies logs on for itself.
+        const std::string proof =
+            dialect == Dialect::V1 ? Accounts::digestNonce(authorization) : std::string();
+        if (cookie.empty()) session = sessions_.ofConnection(head.connection, user, proof);
         if (session == nullptr) {
-            session = sessions_.logOn(dialect, user, head.peer, head.connection);
+            session = sessions_.logOn(dialect, user, head.peer, head.connection, proof);
             if (session == nullptr)
                 return errorResponse(503, "too many sessions: log one off", Form::Xhtml,
                                      contextOf(dialect, head, visit.path));
+            if (settings_.sessionBegan) settings_.sessionBegan(session->session);
         }
         visit.cookies.emplace_back("Set-Cookie",
                                    fmt::format("{}={}; path=/; httponly", kSessionCookie, session->cookie));

@@ -40,6 +40,8 @@ struct FrontDoorSettings {
     std::function<void(std::function<void()>)> postToNetwork;
     /// Of numbers that have ended; called on the network thread.
     std::function<void(uint64_t)> sessionEnded, connectionEnded;
+    /// Before the first request of a session; called on the network thread.
+    std::function<void(std::shared_ptr<const Session>)> sessionBegan;
 };
 
 class FrontDoor {

@@ -3,6 +3,7 @@
 #include "tools/rws/mechanical_units.h"
 
 #include "config/letter_case.h"
+#include "runtime/robot/angles.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
 
@@ -42,11 +43,34 @@ void addPose(const motion::Pose& pose, Entry& entry) {
         .value("q4", shown(pose.rot.z));
 }
 
+/// In the base frame of the robot; from how the flange moves when the axis does.
+motion::Pose axisFrame(const robot::Kinematics& kinematics, const robot::Joints& joints, std::size_t axis) {
+    const robot::JacobianMatrix moves = kinematics.jacobian(joints);
+    const robot::Vec3 line{moves(0, axis), moves(1, axis), moves(2, axis)};
+    const robot::Vec3 turn{moves(3, axis), moves(4, axis), moves(5, axis)};
+    const bool isLinear = kinematics.isLinear(axis);
+    const robot::Vec3 along = isLinear ? line : turn;
+    const robot::Vec3 direction = along * (1 / std::sqrt(std::max(dot(along, along), 1e-30)));
+    robot::Pose frame = kinematics.forward(joints);
+    if (!isLinear) frame.pos = frame.pos + cross(direction, line);
+    constexpr robot::Vec3 kUp{0, 0, 1};
+    const robot::Vec3 across = cross(kUp, direction);
+    const double sine = std::sqrt(dot(across, across));
+    const robot::Vec3 about = sine > 1e-9 ? across * (1 / sine) : robot::Vec3{1, 0, 0};
+    frame.rot = robot::fromAxisAngle(about, std::atan2(sine, direction.z) * robot::kDegreesPerRadian);
+    return frame;
+}
+
 const char* typeOf(const rt::MechanicalUnit& unit) {
     if (unit.isRobot) return "TCPRobot";
     return unit.axes > 1 || unit.own.size() > 1   ? "Robot"
            : unit.own.empty() && !unit.isConveyor ? "None"
                                                   : "Single";
+}
+
+Reply noAxis(const Request& request, const std::string& unit) {
+    return Reply::refuse(ReturnCode::NotFound,
+                         fmt::format("{} has no axis {}", unit, request.parameter("axis")));
 }
 
 std::size_t axesOf(const rt::MechanicalUnit& unit) {
@@ -267,11 +291,16 @@ Reply MechanicalUnits::axes(const Request&, const Unit& unit) const {
     return Reply::of(std::move(document));
 }
 
-Reply MechanicalUnits::axis(const Request& request, const Unit& unit) const {
+std::optional<std::size_t> MechanicalUnits::axisOf(const Request& request, const Unit& unit) {
     const auto number = countIn(request.parameter("axis"));
-    if (!number || *number < 1 || *number > axesOf(unit))
-        return Reply::refuse(ReturnCode::NotFound,
-                             fmt::format("{} has no axis {}", unit.name, request.parameter("axis")));
+    if (!number || *number < 1 || *number > axesOf(unit)) return std::nullopt;
+    return *number;
+}
+
+Reply MechanicalUnits::axis(const Request& request, const Unit& unit) const {
+    if (sameName(request.query.text("resource"), "pose")) return axisPose(request, unit);
+    const auto number = axisOf(request, unit);
+    if (!number) return noAxis(request, unit.name);
     const std::size_t logical = unit.isRobot                 ? *number
                                 : *number <= unit.own.size() ? 7 + unit.own[*number - 1].index
                                                              : *number;
@@ -279,6 +308,29 @@ Reply MechanicalUnits::axis(const Request& request, const Unit& unit) const {
     document.add("ms-mechunit-axisstatus", fmt::format("{}", *number)).value("axis-status", "Synchronized");
     document.add("ms-mechunit-logicalaxis", fmt::format("{}", *number))
         .value("logical-axis", fmt::format("{}", logical));
+    return Reply::of(std::move(document));
+}
+
+/// In the world: z is the axis, in its positive direction; the origin is the point of the axis that is nearest to the flange.
+Reply MechanicalUnits::axisPose(const Request& request, const Unit& unit) const {
+    const auto number = axisOf(request, unit);
+    if (!number) return noAxis(request, unit.name);
+    motion::Pose pose;
+    const auto external = std::find_if(
+        unit.geometry.joints.begin(), unit.geometry.joints.end(), [&](const robot::ExternalJoint& joint) {
+            return *number <= unit.own.size() && joint.axis == unit.own[*number - 1].index;
+        });
+    if (unit.isRobot) {
+        motion::MotionSystem& system = manual_.motionOf(unit).system();
+        const robot::Kinematics& kinematics = system.kinematics();
+        const motion::JointTarget joints = system.currentJoints();
+        const motion::Pose base = system.flangeInWorld(joints) * inverse(kinematics.forward(joints.robax));
+        pose = base * axisFrame(kinematics, joints.robax, *number - 1);
+    } else if (external != unit.geometry.joints.end()) {
+        pose = external->base;
+    }
+    Document document;
+    addPose(pose, document.add("ms-mechunit-axispose", fmt::format("{}", *number)));
     return Reply::of(std::move(document));
 }
 
@@ -415,6 +467,7 @@ void MechanicalUnits::addUnits(Router& router) {
     router.getBoth(unit + "/baseframe", forUnit(&MechanicalUnits::baseFrame));
     router.getBoth(unit + "/axes", forUnit(&MechanicalUnits::axes));
     router.getBoth(unit + "/axes/{axis}", forUnit(&MechanicalUnits::axis));
+    router.getBoth(unit + "/axes/{axis}/pose", forUnit(&MechanicalUnits::axisPose));
     router.getBoth(unit + "/motionsupervision", forUnit(&MechanicalUnits::motionSupervision));
     router.getBoth(unit + "/pathsupervision", forUnit(&MechanicalUnits::pathSupervision));
     router.getBoth(unit + "/lead-through", forUnit(&MechanicalUnits::leadThrough));

@@ -42,6 +42,9 @@ class MechanicalUnits {
     Reply baseFrame(const Request& request, const Unit& unit) const;
     Reply axes(const Request& request, const Unit& unit) const;
     Reply axis(const Request& request, const Unit& unit) const;
+    Reply axisPose(const Request& request, const Unit& unit) const;
+    /// The axis in the path, from 1; none: the unit does not have it.
+    static std::optional<std::size_t> axisOf(const Request& request, const Unit& unit);
     Reply motionSupervision(const Request& request, const Unit& unit) const;
     Reply pathSupervision(const Request& request, const Unit& unit) const;
     Reply leadThrough(const Request& request, const Unit& unit) const;

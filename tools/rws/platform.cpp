@@ -204,8 +204,13 @@ void Platform::addNetwork(Router& router) {
     for (const char* path : {"compatible", "compatibility", "compatibility/{version}", "syslog", "env",
                              "system", "systems", "compress", "clock/timeserver"})
         router.getBoth(std::string("/ctrl/") + path, unsupported());
-    for (const char* path : {"compress", "decompress", "tpu/{action}", "system", "system/update"})
+    for (const char* path :
+         {"compress", "decompress", "tpu/{action}", "system", "system/update", "system/installdpkg",
+          "system/validatedpkg", "network", "network/route/{action}"})
         router.postBoth(std::string("/ctrl/") + path, unsupported());
+    for (const char* path : {"clock/timezone", "clock/timeserver"})
+        router.postBoth(std::string("/ctrl/") + path, unsupportedOrder());
+    router.addBoth({Method::Put, "/ctrl/identity", {}, unsupportedOrder()});
     for (const char* action : {"comp", "dcomp"})
         router.action("/ctrl/compress", action, unsupported());
     router.post(Dialect::V2, "/ctrl/system/info",
@@ -266,6 +271,13 @@ void Platform::addEquipment(Router& router) {
         ++energyChanges_;
         return Reply::done();
     });
+    // An ideal robot has no measurement board, no motors to calibrate and no frames to measure.
+    const std::string unit = "/rw/motionsystem/mechunits/{unit}";
+    for (const char* path : {"smbdata", "calibrationinfo", "motorcalib"})
+        router.getBoth(fmt::format("{}/{}", unit, path), unsupported());
+    for (const std::string& path : {unit + "/smbdata", unit + "/calib", unit + "/axes/{axis}",
+                                    std::string("/rw/rapid/tasks/{task}/motion/calib")})
+        router.postBoth(path, unsupportedOrder());
     const Handler noOption = refusing(ReturnCode::Rejected, "Option is missing: Collision Avoidance", 403);
     for (const char* path : {"snapshot", "loadconfig"})
         router.post(Dialect::V2, std::string("/rw/motionsystem/collisionavoidance/") + path, noOption);

@@ -55,6 +55,10 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     });
 }
 
+void RapidServices::sessionBegan(std::shared_ptr<const Session> session) {
+    users_.sessionBegan(std::move(session));
+}
+
 void RapidServices::sessionEnded(uint64_t session) {
     mastership_.sessionEnded(session);
     users_.sessionEnded(session);

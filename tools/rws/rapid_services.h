@@ -31,6 +31,7 @@ class RapidServices {
     service::BreakpointList& breakpoints() { return breakpoints_; }
 
     // On the controller's thread:
+    void sessionBegan(std::shared_ptr<const Session> session);
     /// A session was closed, or has expired.
     void sessionEnded(uint64_t session);
     /// A TCP connection of RWS 1.0 was closed.

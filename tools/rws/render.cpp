@@ -33,17 +33,17 @@ bool isControl(char c) {
 }
 
 std::string anchor(std::string_view href, std::string_view rel) {
-    return fmt::format(R"(<a href="{}" rel="{}"></a>)", xmlText(href), xmlText(rel));
+    return fmt::format(R"(<a href="{}" rel="{}"></a>)", xmlAttribute(href), xmlAttribute(rel));
 }
 
 std::string listItem(const Entry& entry) {
     std::string text =
-        fmt::format(R"(<li class="{}" title="{}">)", xmlText(entry.type), xmlText(entry.title));
+        fmt::format(R"(<li class="{}" title="{}">)", xmlAttribute(entry.type), xmlAttribute(entry.title));
     if (!entry.self.empty()) text += anchor(entry.self, "self");
     for (const auto& [rel, href] : entry.links)
         text += anchor(href, rel);
     for (const auto& [name, value] : entry.values)
-        text += fmt::format(R"(<span class="{}">{}</span>)", xmlText(name), xmlText(value));
+        text += fmt::format(R"(<span class="{}">{}</span>)", xmlAttribute(name), xmlText(value));
     if (!entry.nestedName.empty() && !entry.isNestedOnlyInJson) {
         text += "<ul>";
         for (const Entry& nested : entry.nested)
@@ -59,7 +59,7 @@ std::string page(std::string_view base, std::string_view body) {
         "\n"
         R"(<html xmlns="http://www.w3.org/1999/xhtml"><head><title>rapidc</title><base href="{}"/></head>)"
         "<body>{}</body></html>\n",
-        xmlText(base), body);
+        xmlAttribute(base), body);
 }
 
 } // namespace
@@ -85,11 +85,17 @@ std::string xmlText(std::string_view text) {
         case '&': result += "&amp;"; break;
         case '<': result += "&lt;"; break;
         case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
         case '\r': result += "&#13;"; break; // a bare one would become a line feed
         default: result += c;
         }
     }
+    return result;
+}
+
+std::string xmlAttribute(std::string_view text) {
+    std::string result;
+    for (const char c : xmlText(text))
+        c == '"' ? result += "&quot;" : result += c;
     return result;
 }
 

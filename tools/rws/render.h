@@ -33,8 +33,11 @@ std::string contentTypeOf(Form form, Dialect dialect);
 
 /// The folder that relative addresses of a resource count from, with '/' at both ends: "/rw/rapid/".
 std::string baseFolder(std::string_view path);
-/// Text for an element or attribute: markup escaped, bytes that are not UTF-8 and characters that XML cannot hold replaced by '?'.
+/// Text for an element: markup escaped, bytes that are not UTF-8 and characters that XML cannot hold replaced by '?'. Quotes stay as they
+/// are: clients that search the text with regular expressions expect "text" of RAPID so.
 std::string xmlText(std::string_view text);
+/// Text for an attribute in double quotes.
+std::string xmlAttribute(std::string_view text);
 /// The same replacements, nothing escaped.
 std::string cleanText(std::string_view text);
 

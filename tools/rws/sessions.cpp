@@ -7,7 +7,7 @@
 namespace rapidc::rws {
 
 Sessions::LoggedOn* Sessions::logOn(Dialect dialect, const std::string& user, const std::string& address,
-                                    uint64_t connection) {
+                                    uint64_t connection, const std::string& proof) {
     if (sessions_.size() >= kMost) expire();
     if (sessions_.size() >= kMost) return nullptr;
     const uint64_t number = ++last_;
@@ -15,6 +15,7 @@ Sessions::LoggedOn* Sessions::logOn(Dialect dialect, const std::string& user, co
     session.session = std::make_shared<const Session>(Session{number, dialect, user, address});
     session.cookie = http::randomHex(16);
     session.abbcx = http::randomHex(8);
+    session.proof = proof;
     session.used = session.second = Clock::now();
     cookies_[session.cookie] = number;
     connections_[connection] = number;
@@ -32,10 +33,12 @@ Sessions::LoggedOn* Sessions::find(std::string_view cookie, Dialect dialect) {
     return session != nullptr && session->session->dialect == dialect ? session : nullptr;
 }
 
-Sessions::LoggedOn* Sessions::ofConnection(uint64_t connection, std::string_view user) {
+Sessions::LoggedOn* Sessions::ofConnection(uint64_t connection, std::string_view user,
+                                           std::string_view proof) {
     const auto found = connections_.find(connection);
     LoggedOn* session = found == connections_.end() ? nullptr : numbered(found->second);
-    return session != nullptr && session->session->user == user ? session : nullptr;
+    const bool isSame = session != nullptr && session->session->user == user && session->proof == proof;
+    return isSame ? session : nullptr;
 }
 
 bool Sessions::countRequest(LoggedOn& session) {

@@ -28,6 +28,7 @@ class Sessions {
     struct LoggedOn {
         std::shared_ptr<const Session> session;
         std::string cookie, abbcx; ///< values of the cookies
+        std::string proof;         ///< as it was logged on
         Clock::time_point used;
         Clock::time_point second; ///< the beginning of the present second,
         int requests = 0;         ///< and the requests in it
@@ -35,12 +36,14 @@ class Sessions {
     };
 
     /// Null: there are kMost.
-    LoggedOn* logOn(Dialect dialect, const std::string& user, const std::string& address,
-                    uint64_t connection);
+    /// `proof`: the nonce of its digest, which identifies the client among those that share a connection; "" with basic.
+    LoggedOn* logOn(Dialect dialect, const std::string& user, const std::string& address, uint64_t connection,
+                    const std::string& proof);
     /// The session of a cookie; null when there is none of this dialect.
     LoggedOn* find(std::string_view cookie, Dialect dialect);
-    /// The session that was logged on over this connection, for clients without cookies; null when there is none.
-    LoggedOn* ofConnection(uint64_t connection, std::string_view user);
+    /// The session that was logged on over this connection with this proof, for clients without cookies; null when there is
+    /// none.
+    LoggedOn* ofConnection(uint64_t connection, std::string_view user, std::string_view proof);
     LoggedOn* numbered(uint64_t number);
     /// Counts a request; false: there are too many.
     static bool countRequest(LoggedOn& session);

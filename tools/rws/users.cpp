@@ -157,15 +157,20 @@ void Users::addGrants(Router& router) {
     });
 }
 
+/// One entry for each session of the controller.
 Reply Users::list(const Request& request) const {
     Document document;
-    const Person person = personOf(*request.session);
-    document.add("user-li", request.session->user)
-        .value("user-name", request.session->user)
-        .value("user-alias", person.alias)
-        .value("user-locale", person.locale)
-        .value("user-application", person.application)
-        .value("user-location", person.location);
+    auto sessions = sessions_;
+    sessions.emplace(request.session->number, request.session);
+    for (const auto& [number, session] : sessions) {
+        const Person person = personOf(*session);
+        document.add("user-li", session->user)
+            .value("user-name", session->user)
+            .value("user-alias", person.alias)
+            .value("user-locale", person.locale)
+            .value("user-application", person.application)
+            .value("user-location", person.location);
+    }
     const auto link = [&](const char* type, const char* title) { document.add(type, title).self = title; };
     link("user-grants-li", "grants");
     link("user-rmmp-li", "rmmp");
@@ -243,7 +248,13 @@ Reply Users::poll(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
+void Users::sessionBegan(std::shared_ptr<const Session> session) {
+    const uint64_t number = session->number;
+    sessions_[number] = std::move(session);
+}
+
 void Users::sessionEnded(uint64_t session) {
+    sessions_.erase(session);
     people_.erase(session);
     names_.erase(session);
     privileged_.erase(session);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -19,6 +20,7 @@ class Users {
     void addTo(Router& router, Subscribables& subscribables);
     /// The session has the privilege to modify in manual mode.
     bool mayModify(uint64_t session) const { return privileged_.contains(session); }
+    void sessionBegan(std::shared_ptr<const Session> session);
     void sessionEnded(uint64_t session);
 
   private:
@@ -37,7 +39,8 @@ class Users {
     Person personOf(const Session& session) const;
 
     service::Observers& observers_;
-    std::map<uint64_t, Person> people_; ///< by session
+    std::map<uint64_t, std::shared_ptr<const Session>> sessions_; ///< of both dialects, by number
+    std::map<uint64_t, Person> people_;                           ///< by session
     std::map<uint64_t, std::string> names_;
     std::set<uint64_t> privileged_;
 };

@@ -14,6 +14,7 @@ BreakpointList::BreakpointList(VirtualController& controller) : controller_(cont
             for (Mark& mark : marks_)
                 setInDebugger(mark);
         if (change == Change::Generation || change == Change::Modules) report();
+        if (change == Change::Execution && !controller_.isRunning()) stopping_ = true;
     };
     observer_ = controller_.observers().add(std::move(observer));
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rapidc::service {
@@ -42,8 +43,9 @@ class BreakpointList {
     void clear();
     std::vector<Mark> all() const;
 
-    /// Whether breakpoints stop the program from now on: the choice of the client that starts it.
-    void setStopping(bool stopping) { stopping_ = stopping; }
+    /// Whether breakpoints stop the program until it has stopped: the choice of the client that starts it. Returns the choice
+    /// that held before.
+    bool setStopping(bool stopping) { return std::exchange(stopping_, stopping); }
     /// Calls the action after each change of the list, and when statements may lie elsewhere.
     int onChange(std::function<void()> action);
     void forget(int listener) { actions_.erase(listener); }

@@ -1,5 +1,6 @@
 #include "tools/service/pointers.h"
 
+#include "config/letter_case.h"
 #include "tools/service/virtual_controller.h"
 
 namespace rapidc::service {
@@ -52,9 +53,24 @@ std::optional<PointerPlace> beginning(VirtualController& controller, const rt::T
     return placeOf(*entry->desc, first);
 }
 
+/// The statement that begins in that line.
+std::optional<PointerPlace> placeInLine(VirtualController& controller, const rt::Task& task,
+                                        const std::string& module, uint32_t line) {
+    for (const rt::RoutineEntry* routine : controller.core().tables().routines()) {
+        const bool isOwn = routine->task < 0 || routine->task == static_cast<int32_t>(task.index());
+        if (!isOwn || !rapid::config::sameName(routine->module, module)) continue;
+        for (uint32_t i = 0; i < routine->desc->statementCount; ++i)
+            if (routine->desc->statements[i].canStart != 0 && routine->desc->statements[i].line == line)
+                return placeOf(*routine->desc, static_cast<int32_t>(i));
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::optional<PointerPlace> programPointer(VirtualController& controller, const rt::Task& task) {
+    if (const auto destination = controller.destination(task))
+        return placeInLine(controller, task, destination->first, destination->second);
     const bool begins = task.stopCause() == rt::StopCause::AtMain || task.state() == rt::TaskState::Finished;
     if (begins || task.frame == nullptr) return beginning(controller, task);
     const auto frames = controller.core().debugger().frames(task);

@@ -70,9 +70,10 @@ rt::ExitStatus VirtualController::open() {
         fmt::print(stderr, "{}\n", problem);
         return rt::ExitStatus::BadUsage;
     }
-    panel_.motors = settings_.programStart ? MotorState::On : MotorState::Off;
+    panel_.motors = settings_.beginsWithMotors() ? MotorState::On : MotorState::Off;
     Succession first;
-    first.programStart = first.motorsOn = settings_.programStart;
+    first.programStart = settings_.programStart;
+    first.motorsOn = settings_.beginsWithMotors();
     return makeCore(first);
 }
 
@@ -90,7 +91,8 @@ rt::ExitStatus VirtualController::reopen() {
     core_.reset();
     program_ = std::move(program);
     Succession first;
-    first.programStart = first.motorsOn = settings_.programStart;
+    first.programStart = settings_.programStart;
+    first.motorsOn = settings_.beginsWithMotors();
     if (status = makeCore(first); status == rt::ExitStatus::Ended) observers_.changed(Change::Generation);
     return status;
 }
@@ -245,7 +247,8 @@ std::string VirtualController::folderOf(const std::string& volume) {
 
 Refusal VirtualController::restart(RestartMode mode) {
     auto next = std::make_unique<Succession>();
-    next->programStart = next->motorsOn = settings_.programStart;
+    next->programStart = settings_.programStart;
+    next->motorsOn = settings_.beginsWithMotors();
     if (release_) release_();
     if (mode == RestartMode::Warm) next->state = core_->captureState();
     if (mode == RestartMode::Cold || isConfigurationChanged_) {

@@ -27,7 +27,9 @@ struct Settings {
     Inputs inputs;          ///< what is compiled; complete, with the options of `run` that the checker needs
     rt::RunOptions options; ///< as of `rapidc run`; home and volumes are folders that exist
     bool programStart = true; ///< motors on, and the program runs from main as soon as the controller is up
-    int robotWare = 7;        ///< the version that clients read: 6, 7 or 8
+    bool motorsOn = false;    ///< the motors also without programStart
+    bool beginsWithMotors() const { return programStart || motorsOn; }
+    int robotWare = 7; ///< the version that clients read: 6, 7 or 8
 };
 
 /// "" or why an order is refused; then nothing has changed.
@@ -111,6 +113,8 @@ class VirtualController {
     Refusal pointerToRoutine(rt::Task& task, const std::string& module, const std::string& routine);
     /// To the instruction that begins in that line; `line` from 1. Takes effect within some instructions' time.
     Refusal pointerToLine(rt::Task& task, const std::string& module, uint32_t line);
+    /// Module and line to which the program pointer of the task is on its way.
+    std::optional<std::pair<std::string, uint32_t>> destination(const rt::Task& task) const;
     Refusal setTaskActive(rt::Task& task, bool active);
     bool isTaskActive(const rt::Task& task) const { return core_->isTaskActive(task); }
 

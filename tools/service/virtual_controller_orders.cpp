@@ -207,6 +207,11 @@ Refusal VirtualController::pointerToLine(rt::Task& task, const std::string& modu
     return {};
 }
 
+std::optional<std::pair<std::string, uint32_t>> VirtualController::destination(const rt::Task& task) const {
+    if (!cursor_ || cursor_->task != task.name()) return std::nullopt;
+    return std::pair(cursor_->module, cursor_->line);
+}
+
 /// The routine of the cursor is being entered, after UNDO handlers and event routines that are still to execute.
 bool VirtualController::isCursorOnItsWay() const {
     if (!cursor_) return false;

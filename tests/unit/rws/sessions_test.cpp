@@ -13,33 +13,34 @@ TEST_CASE("There are at most seventy sessions (serve-contract 13)", "[rws]") {
     uint64_t first = 0;
     for (uint64_t i = 0; i < 70; ++i) {
         const Sessions::LoggedOn* session =
-            sessions.logOn(i % 2 ? Dialect::V1 : Dialect::V2, "Admin", "127.0.0.1", i);
+            sessions.logOn(i % 2 ? Dialect::V1 : Dialect::V2, "Admin", "127.0.0.1", i, "");
         REQUIRE(session);
         CHECK(session->cookie.size() >= 16);
         cookies.insert(session->cookie);
         if (i == 0) first = session->session->number;
     }
     CHECK(cookies.size() == 70);
-    CHECK_FALSE(sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 100));
+    CHECK_FALSE(sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 100, ""));
     sessions.end(first);
     CHECK(ended == std::set<uint64_t>{first});
-    CHECK(sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 100));
+    CHECK(sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 100, ""));
 }
 
 TEST_CASE("A session belongs to its cookie, its dialect and its connection (serve-contract 12)", "[rws]") {
     Sessions sessions([](uint64_t) {});
-    const Sessions::LoggedOn* session = sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 7);
+    const Sessions::LoggedOn* session = sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 7, "nonce");
     REQUIRE(session);
     const std::string cookie = session->cookie;
     CHECK(sessions.find(cookie, Dialect::V1) == session);
     CHECK_FALSE(sessions.find(cookie, Dialect::V2));
     CHECK_FALSE(sessions.find("", Dialect::V1));
     CHECK_FALSE(sessions.find(cookie + "0", Dialect::V1));
-    CHECK(sessions.ofConnection(7, "Admin") == session);
-    CHECK_FALSE(sessions.ofConnection(7, "Default User"));
-    CHECK_FALSE(sessions.ofConnection(8, "Admin"));
+    CHECK(sessions.ofConnection(7, "Admin", "nonce") == session);
+    CHECK_FALSE(sessions.ofConnection(7, "Admin", "another")); // another client of the same process
+    CHECK_FALSE(sessions.ofConnection(7, "Default User", "nonce"));
+    CHECK_FALSE(sessions.ofConnection(8, "Admin", "nonce"));
     sessions.connectionEnded(7);
-    CHECK_FALSE(sessions.ofConnection(7, "Admin"));
+    CHECK_FALSE(sessions.ofConnection(7, "Admin", "nonce"));
     CHECK(sessions.find(cookie, Dialect::V1));
     sessions.end(session->session->number);
     CHECK_FALSE(sessions.find(cookie, Dialect::V1));

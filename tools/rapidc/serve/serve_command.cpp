@@ -14,6 +14,8 @@ namespace rapidc {
 
 namespace {
 
+constexpr int kSignalStatus = 128; ///< what a shell adds to the number of the signal
+
 int usageError(const std::string& problem) {
     fmt::print(stderr, "rapidc serve: {}\n", problem);
     return static_cast<int>(rt::ExitStatus::BadUsage);
@@ -48,7 +50,8 @@ int serveInputs(serve::ServeSettings& settings) {
                 static_cast<double>(cycles.latest) / rt::kMillisecond);
     }
     folders.clear();
-    rt::StopSignals::endIfReceived();
+    // A service ends by itself: the first process of a container cannot be ended by a signal that it does not handle.
+    if (const int received = rt::StopSignals::received(); received != 0) return kSignalStatus + received;
     return static_cast<int>(status);
 }
 

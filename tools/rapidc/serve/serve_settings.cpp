@@ -55,6 +55,24 @@ std::string readPassword(ServeSettings& settings) {
     return {};
 }
 
+constexpr std::size_t kMostFolders = 20'000; ///< of a volume that are looked into before the controller begins
+
+/// What a process that was killed has left in a volume: uploads, copies and backups that were not complete.
+void removeRests(const std::string& volume) {
+    if (volume.empty()) return;
+    rapid::config::removeLeftovers(volume);
+    std::error_code error;
+    auto folder = fs::recursive_directory_iterator(volume, fs::directory_options::skip_permission_denied, error);
+    std::size_t looked = 0;
+    for (; !error && folder != fs::recursive_directory_iterator() && looked < kMostFolders;
+         folder.increment(error)) {
+        std::error_code ignored;
+        if (!folder->is_directory(ignored) || folder->is_symlink(ignored)) continue;
+        rapid::config::removeLeftovers(folder->path());
+        ++looked;
+    }
+}
+
 } // namespace
 
 void addServeOptions(const rt::Command& command, ServeSettings& settings) {
@@ -73,6 +91,8 @@ void addServeOptions(const rt::Command& command, ServeSettings& settings) {
         .typeName("FILE");
     command.addFlag("--no-program-start", settings.noProgramStart,
                     "begin with the motors off and the program stopped at main");
+    command.addFlag("--motors-on", settings.motorsOn,
+                    "with --no-program-start: begin with the motors on, ready for the first start");
     addRobotWare(command, controller.robotWare);
     command.add("--backup-dir", settings.backupFolder, "the folder of $BACKUP; default: a temporary one")
         .typeName("DIR");
@@ -112,12 +132,14 @@ std::string complete(ServeSettings& settings,
     service::Settings& controller = settings.controller;
     rt::RunOptions& options = controller.options;
     controller.programStart = !settings.noProgramStart;
+    controller.motorsOn = settings.motorsOn;
     Inputs& inputs = controller.inputs;
     inputs.tasks = options.tasks;
     inputs.configFiles = options.configFiles;
     inputs.robots = options.robots;
     inputs.conveyors = options.conveyors;
     inputs.cameras = options.cameras;
+    inputs.home = options.home;
     if (std::string problem = readPassword(settings); !problem.empty()) return problem;
     if (options.network.listen) {
         settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
@@ -130,6 +152,9 @@ std::string complete(ServeSettings& settings,
     std::string error;
     findStimulus(options, inputs.paths);
     if (!readStimulus(options, error)) return error;
+    for (const std::string& volume :
+         {options.home, settings.backupFolder, settings.tempFolder, settings.systemFolder})
+        removeRests(volume);
     // Volumes outlive the controller, which a restart replaces.
     const auto use = [&](const char* volume, const std::string& given) -> std::string {
         std::string path = given;

@@ -26,6 +26,7 @@ struct ServeSettings {
     std::string backupFolder, tempFolder, systemFolder; ///< "" = temporary ones
     std::string certificateFolder;                      ///< "" = of the user, or none
     bool noProgramStart = false;
+    bool motorsOn = false; ///< also with noProgramStart
 };
 
 /// Adds the options of `run` that a controller has, and those of its servers.

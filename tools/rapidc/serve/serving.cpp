@@ -25,6 +25,9 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
     door.password = settings.password;
     door.postToController = [this](std::function<void()> work) { controller_.post(std::move(work)); };
     door.postToNetwork = [this](std::function<void()> work) { server_.post(std::move(work)); };
+    door.sessionBegan = [this](std::shared_ptr<const rws::Session> session) {
+        controller_.post([this, session = std::move(session)] { rapid_.sessionBegan(session); });
+    };
     door.sessionEnded = [this](uint64_t session) {
         controller_.post([this, session] {
             subscriptions_.sessionEnded(session);
