@@ -84,7 +84,10 @@ Pose Route::poseIn(const Leg& from, const Leg& frames, double distance) {
     const Pose pose = poseOn(from, distance);
     if (sameFrames(from.path->frames(), frames.path->frames())) return pose;
     const ExternalAxes axes = from.path->externalAt(from.lengths.parameterAt(distance));
-    return frames.path->frames().fromFlange(from.path->frames().toFlange(pose, axes), axes);
+    // A user frame that another robot carries is the same for both, wherever it is.
+    const Pose carried;
+    const Pose* user = from.path->frames().userCourse != nullptr ? &carried : nullptr;
+    return frames.path->frames().fromFlange(from.path->frames().toFlange(pose, axes, user), axes, user);
 }
 
 AxisVector Route::axesOn(const Leg& leg, double distance) {
@@ -218,6 +221,11 @@ void Route::blendExternal(Corner& corner, const Leg& a, const Leg& b, double bef
 double pathRate(double mm, double degrees) {
     const double turning = kMmPerDegree * degrees;
     return mm >= turning ? mm : std::sqrt(0.5 * (mm * mm + turning * turning));
+}
+
+double perMmLeft(double mm, double degrees) {
+    const double left = std::max(mm, kMmLeftPerDegree * degrees);
+    return left > 0 ? pathRate(mm, degrees) / left : 1;
 }
 
 void takeExternal(const AxisVector& axes, ExternalAxes& external) {

@@ -100,9 +100,13 @@ template <class Point> struct Blend {
 
 /// On stretches where the TCP hardly moves a degree of turning, or a unit of an external axis, counts as this many mm.
 inline constexpr double kMmPerDegree = 0.2;
+/// When a stop point is reached, a degree of turning or a unit of an external axis counts as this many mm that are left.
+inline constexpr double kMmLeftPerDegree = 2;
 /// mm of route per unit of a parameter by which the TCP moves `mm` and the rest turns `degrees`: those of the TCP, unless
 /// it moves less than that much turning counts.
 double pathRate(double mm, double degrees);
+/// mm of route at the end of such a movement that count as a mm that is left.
+double perMmLeft(double mm, double degrees);
 /// Sets the external axes that are connected.
 void takeExternal(const AxisVector& axes, ExternalAxes& external);
 /// Speeds of the external axes, added.

@@ -38,8 +38,8 @@ inline bool isByWrist(CircleOrientation orientation) {
 
 /// How lines and circles pass singularities of the wrist (SingArea, manual 1.7).
 enum class SingularityMode : uint8_t {
-    Off,   ///< the orientation is kept; a path through a singularity is refused
-    Wrist, ///< where that would be refused, axes 4 to 6 turn evenly and the orientation deviates on the way
+    Off,      ///< the orientation is kept; a path through a singularity is refused
+    Wrist,    ///< axes 4 to 6 turn evenly, and the orientation deviates on the way
     LockAxis4 ///< axis 4 stays at 0 or 180 degrees and the orientation comes as near as it can
 };
 

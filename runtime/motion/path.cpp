@@ -2,6 +2,8 @@
 
 #include "runtime/motion/path.h"
 
+#include "runtime/robot/angles.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -209,31 +211,68 @@ std::optional<MotionError> MotionPath::checkTarget(const MoveCommand& command) c
     return errorAt(targetError(problem, {}).kind, 1, problem.joint, problem.angleDeg);
 }
 
-/// As the orientation is programmed if that can be, else by the mode of SingArea. A tool that the robot does not hold has
-/// no such mode.
+/// With the orientation as programmed, or by the mode of SingArea. A tool that the robot does not hold has no such mode.
 std::optional<MotionError> MotionPath::marchWithMode(const MoveCommand& command) {
     const bool isPossible = frames_.tool.robotHeld && kinematics_.jointCount() == 6 && !isByWrist_;
     constexpr double kTurn = 180; // deg, between the places at which axis 4 can be locked
     lockedAxis4_ = kTurn * std::round(start_.robax[3] / kTurn);
     constexpr double kLocked = 0.01; // deg
     if (isPossible && command.singularity == SingularityMode::LockAxis4 &&
-        std::fabs(start_.robax[3] - lockedAxis4_) < kLocked) {
+        std::fabs(start_.robax[3] - lockedAxis4_) < kLocked)
         mode_ = SingularityMode::LockAxis4;
-        return march();
+    if (isPossible && command.singularity == SingularityMode::Wrist && canInterpolateWrist())
+        if (auto error = interpolateWrist(command)) return error;
+    return march();
+}
+
+/// Whether the arm has a wrist whose axes can turn for themselves.
+bool MotionPath::canInterpolateWrist() const {
+    Joints joints;
+    const Pose tcp = kinematics_.forward(start_.robax) * frames_.tool.tframe;
+    return kinematics_.inverseWithWrist(tcp.pos, frames_.tool.tframe, start_.robax, start_.robax, joints);
+}
+
+/// From the axes of the wrist at the start to those at the end, on a circle through those at its circle point.
+std::optional<MotionError> MotionPath::interpolateWrist(const MoveCommand& command) {
+    constexpr double kLeastShare =
+        0.1; // a circle point nearer to an end of the circle would make the axes swing
+    const Joints* near = &start_.robax;
+    if (curve_.isArc()) {
+        const Vec3 from = curve_.at(0).pos - curve_.centre();
+        const Vec3 via = command.circlePoint.pos - curve_.centre();
+        double angle =
+            std::atan2(dot(curve_.axis(), cross(from, via)), dot(from, via)) * robot::kDegreesPerRadian;
+        if (angle < 0) angle += 360;
+        const double share = angle / curve_.sweepDeg();
+        const Pose pose{command.circlePoint.pos, robot::normalized(command.circlePoint.rot)};
+        const auto joints = kinematics_.inverseNear(flangeFor(pose, share), start_.robax);
+        if (joints && share > kLeastShare && share < 1 - kLeastShare) {
+            wristVia_ = *joints;
+            wristViaShare_ = share;
+            near = &wristVia_;
+        }
     }
-    auto error = march();
-    if (isByWrist_) return error;
-    const bool isSingular = error && (error->kind == MotionErrorKind::Singularity ||
-                                      error->kind == MotionErrorKind::JointOutOfRange);
-    if (!isSingular || !isPossible || command.singularity != SingularityMode::Wrist) return error;
     const Pose flange = flangeFor(curve_.at(1), 1);
-    const auto end = command.confL ? kinematics_.inverse(flange, command.target.conf, start_.robax)
-                                   : kinematics_.inverseNear(flange, start_.robax);
-    if (!end) return error;
-    nodes_.clear();
+    const auto end = command.confL ? kinematics_.inverse(flange, command.target.conf, *near)
+                                   : kinematics_.inverseNear(flange, *near);
+    if (!end) {
+        const int joint = end.error().joint;
+        return errorAt(MotionErrorKind::ConfigurationMismatch, 1, joint, end.error().angleDeg);
+    }
     end_.robax = *end;
     mode_ = SingularityMode::Wrist;
-    return march();
+    return {};
+}
+
+Joints MotionPath::wristAt(double s) const {
+    Joints joints = between(start_.robax, end_.robax, s);
+    if (wristViaShare_ == 0) return joints;
+    const Joints chord = between(start_.robax, end_.robax, wristViaShare_);
+    const double bend =
+        s * (1 - s) / (wristViaShare_ * (1 - wristViaShare_)); // the parabola through three places
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        joints[i] += bend * (wristVia_[i] - chord[i]);
+    return joints;
 }
 
 MotionError MotionPath::errorAt(MotionErrorKind kind, double s, int joint, double value) const {
@@ -255,8 +294,7 @@ bool MotionPath::solve(double s, const Joints& seed, Joints& out, std::optional<
     if (mode_ != SingularityMode::Off) {
         const Pose base_tcp = flangeFor(curve_.at(s), s) * frames_.tool.tframe;
         return mode_ == SingularityMode::Wrist
-                   ? kinematics_.inverseWithWrist(base_tcp.pos, frames_.tool.tframe,
-                                                  between(start_.robax, end_.robax, s), seed, out)
+                   ? kinematics_.inverseWithWrist(base_tcp.pos, frames_.tool.tframe, wristAt(s), seed, out)
                    : kinematics_.inverseLockedAxis4(base_tcp, frames_.tool.tframe, lockedAxis4_, seed, out);
     }
     const Pose pose = curve_.at(s);

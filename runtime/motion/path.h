@@ -117,6 +117,9 @@ class MotionPath {
     void resolveArmAngle(const MoveCommand& command);
     Problem march();
     Problem marchWithMode(const MoveCommand& command);
+    bool canInterpolateWrist() const;
+    Problem interpolateWrist(const MoveCommand& command);
+    Joints wristAt(double s) const;
     Problem checkNode(const PathNode& node) const;
     Problem checkTarget(const MoveCommand& command) const;
     Problem checkArrival(const MoveCommand& command) const;
@@ -145,9 +148,11 @@ class MotionPath {
     bool isEmpty_ = true;
     SingularityMode mode_ = SingularityMode::Off; // in force on this path
     double lockedAxis4_ = 0;                      // deg
-    double armStart_ = 0, armTravel_ = 0;         // deg
-    bool isByWrist_ = false;                      // a circle that two axes of the wrist run
-    std::array<std::size_t, 2> wristAxes_{};      // those, as indices
+    Joints wristVia_{};                      // posture in the circle point of a circle with SingArea Wrist
+    double wristViaShare_ = 0;               // of the circle point on that circle; 0 = no circle
+    double armStart_ = 0, armTravel_ = 0;    // deg
+    bool isByWrist_ = false;                 // a circle that two axes of the wrist run
+    std::array<std::size_t, 2> wristAxes_{}; // those, as indices
     CartesianCurve curve_;
     std::vector<PathNode> nodes_;
 };

@@ -314,6 +314,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const bool inCorner = middle > l.end();
     stretch.leg = legAt(middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
+    stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
     std::optional<Pose> beforeTcp, hereTcp, afterTcp;
     stretch.middle = pointAt(middle, seed, &hereTcp);
     stretch.first = stretch.second = robot::Joints::zeros(seed.size());

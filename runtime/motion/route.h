@@ -23,6 +23,7 @@ struct Leg {
     double duration = 0;             ///< s, RAPID's \T; 0 = not given
     LengthMap lengths;               ///< mm of path to the path's own parameter
     double perMm = 1;                ///< mm of route for a mm of TCP path
+    double perMmLeft = 1;            ///< mm of route that count as a mm left when its stop point is reached
     bool isTurning = false;          ///< the TCP hardly moves; the zone is measured in degrees
     double begin = 0;                ///< place where the part outside corners begins
     double cutStart = 0, cutEnd = 0; ///< mm taken by the corners at both ends
@@ -45,11 +46,12 @@ struct RouteStretch {
     RoutePoint middle;
     Joints first{}, second{}; ///< derivatives of the axes by the place, deg/mm, deg/mm^2
     ExternalAxes externalFirst{}, externalSecond{};
-    double tcpRate = 1;    ///< mm of TCP path a mm of route
-    double turnRate = 0;   ///< degrees of orientation a mm of route
-    double armRate = 0;    ///< degrees of the arm angle a mm of route, on lines and circles
-    double curvature = 0;  ///< of the TCP path, 1/mm
-    double zoneLength = 0; ///< mm, of the corner it lies in; 0 = outside
+    double tcpRate = 1;        ///< mm of TCP path a mm of route
+    double turnRate = 0;       ///< degrees of orientation a mm of route
+    double armRate = 0;        ///< degrees of the arm angle a mm of route, on lines and circles
+    double curvature = 0;      ///< of the TCP path, 1/mm
+    double zoneLength = 0;     ///< mm, of the corner it lies in; 0 = outside
+    bool isAxesCorner = false; ///< that corner is a curve of the axes
 };
 
 class Route {

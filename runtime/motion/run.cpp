@@ -144,6 +144,18 @@ void Run::setCarrier(std::size_t carried, std::size_t carrier,
     });
 }
 
+double Run::perMmLeft() const {
+    const std::size_t last = route_.legCount() - 1;
+    double least = route_.leg(last).perMmLeft;
+    if (settings_.companions == nullptr) return least;
+    const double length = route_.leg(last).length();
+    for (std::size_t i = 0; i < settings_.companions->size(); ++i) {
+        const Leg& other = settings_.companions->route(i).leg(last);
+        least = std::min(least, other.perMmLeft * length / other.length());
+    }
+    return least;
+}
+
 /// False, and the route is as before, when the arm can no longer take the corner within its limits.
 bool Run::appendOptimal(double changed, double now) {
     const bool isFirst = route_.legCount() == 1;
@@ -165,11 +177,12 @@ std::size_t Run::limitStretches(std::size_t from) {
         limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
         limits_.back().ownSpeed = limits_.back().speed;
+        if (!s.isAxesCorner) limits_.back().axisSpeed = kUnlimited; // no dip that is widened
     }
     return widenDips(from);
 }
 
-/// Averaging in time would pass over a short place where an axis turns fast: around it, as far as the windows reach, the speed
+/// Averaging in time would pass over a short place in a corner between joint moves where an axis turns fast: around it, as far as the windows reach, the speed
 /// exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
 /// their place had lowered have their own speeds again. The first stretch whose speed has changed, at most `from`.
 std::size_t Run::widenDips(std::size_t from) {

@@ -62,6 +62,8 @@ class Run {
 
     const Route& route() const { return route_; }
     const Course& course() const { return course_; }
+    /// mm of route that count as a mm that is left at the stop point at its end: of the robot that keeps it most closely.
+    double perMmLeft() const;
     double start() const { return start_; }
     /// Shifts the start; the run has not begun.
     void startAt(double time);

@@ -76,7 +76,9 @@ bool sameTool(const FrameSetup& a, const FrameSetup& b) {
 }
 
 bool sameFrames(const FrameSetup& a, const FrameSetup& b) {
-    return sameTool(a, b) && a.workObject.uframe == b.workObject.uframe &&
+    // A user frame that something moves is where that is, and its own pose does not count.
+    const bool isUserMoved = a.carrier != nullptr || a.userMover != nullptr;
+    return sameTool(a, b) && (isUserMoved || a.workObject.uframe == b.workObject.uframe) &&
            a.workObject.oframe == b.workObject.oframe && a.displacement == b.displacement &&
            a.baseFrame == b.baseFrame && a.baseMover == b.baseMover;
 }

@@ -58,7 +58,9 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
     double mm = path->length();
     if (path->isCartesian()) {
         mm = path->curve().length();
-        leg.lengths = LengthMap::even(pathRate(mm, path->curve().rotationDeg() + external));
+        const double turn = path->curve().rotationDeg() + external;
+        leg.lengths = LengthMap::even(pathRate(mm, turn));
+        leg.perMmLeft = perMmLeft(mm, turn);
         if (mm > 0) leg.perMm = leg.lengths.length() / mm;
     } else {
         const auto rate = [&](double s) {
@@ -72,6 +74,10 @@ Leg Trajectory::legOf(const std::shared_ptr<const MotionPath>& path, const MoveC
               1e-6)) { // an axis turns that moves and turns nothing: only a bad tool does that
             leg.lengths = LengthMap::even(1);
         }
+        double tcp = 0;
+        double turn = 0;
+        path->tcpRatesAt(1, tcp, turn);
+        leg.perMmLeft = perMmLeft(tcp, turn + external);
     }
     leg.isTurning = mm < 0.5 * leg.lengths.length();
     return leg;
@@ -143,6 +149,7 @@ std::vector<Leg> Trajectory::legsTogether(const std::vector<Ordered>& moves) con
         if (!keepsPlace(moves[i])) continue;
         legs[i].lengths = LengthMap::even(longest);
         legs[i].perMm = 1;
+        legs[i].perMmLeft = 1e300;
         legs[i].isTurning = false;
         legs[i].limits.tcpSpeed = legs[i].programmed.tcpSpeed = 1e300;
     }
@@ -251,7 +258,8 @@ std::optional<double> Trajectory::startAfter(std::size_t run) const {
     double settled = kSettling;
     if (e.pause == 0 && before.pause == 0 && before.stop.standTime == 0) {
         const Course& course = before.run->course();
-        atOnce = std::max(courseTime(run - 1, course.endPlace() - options_.overlap), course.plannedEnd()) +
+        const double left = options_.overlap * before.run->perMmLeft();
+        atOnce = std::max(courseTime(run - 1, course.endPlace() - left), course.plannedEnd()) +
                  (*reached - *inPositionTime(run - 1)); // as much later as the stop point asks for
         settled = std::max(settled, course.end() - *reached);
     }
@@ -452,8 +460,8 @@ std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
     if (e.run->isBraking()) return {};
     const Course& course = e.run->course();
     const double length = course.endPlace();
-    return std::max(courseTime(run, length - std::min(options_.inPosition, 0.5 * length)),
-                    course.plannedEnd());
+    const double left = options_.inPosition * e.run->perMmLeft();
+    return std::max(courseTime(run, length - std::min(left, 0.5 * length)), course.plannedEnd());
 }
 
 std::optional<double> Trajectory::stopTime(std::size_t run) const {
@@ -467,7 +475,7 @@ std::optional<double> Trajectory::stopTime(std::size_t run) const {
     double time = *fine;
     if (stop.positionPercent != 100) {
         const double length = course.endPlace();
-        const double left = 0.01 * stop.positionPercent * options_.inPosition;
+        const double left = 0.01 * stop.positionPercent * options_.inPosition * e.run->perMmLeft();
         time = courseTime(run, length - std::min(left, 0.5 * length));
     }
     if (stop.speedPercent < 100) time = std::max(time, slowTime(course, *fine, 0.01 * stop.speedPercent));

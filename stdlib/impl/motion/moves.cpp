@@ -265,7 +265,10 @@ Status rt_MoveExtJ(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     const lib::MotionState& state = lib::motionState(task);
     const data::Tooldata tool = state.tool;
     const data::Wobjdata workObject = state.workObject;
+    // The movement has no TCP: that of a robot which a track carries along has no programmed speed (vlin, vrot).
+    data::Speeddata speed = *Speed;
+    speed.v_tcp = speed.v_ori = 1e6F;
     return lib::orderMove(task, lib::externalMove(task, *ToJointPos, UseEOffs, ID),
-                          {Conc, Speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
+                          {Conc, &speed, nullptr, T, Zone, nullptr, Inpos, &tool, &workObject});
 }
 }

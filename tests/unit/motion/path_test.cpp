@@ -288,6 +288,48 @@ TEST_CASE("SingArea: a line through the singularity of the wrist", "[motion][pat
     CHECK(angleBetween(irb120().forward(path->jointsAt(1)).rot, command.target.pose.rot) < 1e-6);
 }
 
+TEST_CASE("SingArea Wrist: the axes of the wrist turn evenly on every line and circle", "[motion][path]") {
+    // Manual 2.2.4: the wrist is interpolated axis by axis and the TCP follows its path; on a circle the circle point has the
+    // programmed orientation.
+    const JointTarget start{{0, 20, 10, 30, 40, 20}, kNoExternalAxes};
+    const Pose from = irb120().forward(start.robax);
+    MoveCommand command;
+    command.kind = MoveKind::Linear;
+    command.target.pose = irb120().forward({20, 25, 0, 70, 50, -10});
+    command.confL = false;
+    command.singularity = SingularityMode::Wrist;
+    SECTION("line") {
+        const auto path = MotionPath::make(irb120(), start, command);
+        REQUIRE(path.hasValue());
+        const Vec3 way = command.target.pose.pos - from.pos;
+        for (const double s : {0.25, 0.5, 0.75, 1.0}) {
+            const Joints joints = path->jointsAt(s);
+            CHECK(norm(irb120().forward(joints).pos - (from.pos + way * s)) < 1e-6);
+            CHECK(joints[3] == Approx(30 + 40 * s).margin(1e-6));
+            CHECK(joints[4] == Approx(40 + 10 * s).margin(1e-6));
+            CHECK(joints[5] == Approx(20 - 30 * s).margin(1e-6));
+        }
+    }
+    SECTION("circle") {
+        command.kind = MoveKind::Circular;
+        command.circlePoint = irb120().forward({10, 15, 8, 35, 30, 15});
+        const auto path = MotionPath::make(irb120(), start, command);
+        REQUIRE(path.hasValue());
+        double nearest = 1e9;
+        double turned = 1e9;
+        for (int i = 0; i <= 2000; ++i) {
+            const Pose here = irb120().forward(path->jointsAt(i / 2000.0));
+            const double distance = norm(here.pos - command.circlePoint.pos);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            turned = angleBetween(here.rot, command.circlePoint.rot);
+        }
+        CHECK(nearest < 0.1);
+        CHECK(turned < 0.1);
+        CHECK(angleBetween(irb120().forward(path->jointsAt(1)).rot, command.target.pose.rot) < 1e-6);
+    }
+}
+
 TEST_CASE("SingArea LockAxis4: axis 4 does not turn", "[motion][path]") {
     MoveCommand command = lineBy(0, 80, -40);
     command.confL = false;

@@ -77,3 +77,21 @@ TEST_CASE("a movement after a stop point begins without a step of place or speed
         CHECK(most < 10); // this arm accelerates its TCP by about as much
     }
 }
+
+TEST_CASE("a turning movement is at its stop point when a quarter of a degree is left", "[motion][stop]") {
+    // 0.5 mm are left; a degree counts as 2 mm (decision 118).
+    MotionSystem system(robot::loadRobotModel("IRB 6640-180/2.55").value());
+    system.placeAt({{0, 10, 10, 0, 60, 0}, kNoExternalAxes});
+    for (const double speed : {30.0, 120.0}) {
+        MoveCommand command = lineBy(system, 0);
+        command.speed.vOri = speed;
+        command.target.pose.rot = command.target.pose.rot * robot::fromAxisAngle({0, 0, 1}, 60);
+        const MoveId move = system.enqueue(command).value();
+        while (!system.isReleased(move))
+            system.advanceTo(*system.nextEventTime());
+        const double left = robot::angleBetween(system.current().tcp.rot, command.target.pose.rot);
+        CHECK(left == Approx(0.25).margin(0.01));
+        while (!system.isIdle() || system.isMoving())
+            system.advanceTo(*system.nextEventTime());
+    }
+}

@@ -245,48 +245,81 @@ TEST_CASE("an unreachable target of one robot orders nothing for the others", "[
     CHECK(pair.second.isIdle());
 }
 
-TEST_CASE("a robot follows the work object that the other one carries", "[motion][together]") {
-    Pair pair;
-    // The target of the first robot is given in the flange frame of the second one.
-    const auto inOther = [&] {
-        const MotionState other = pair.second.current();
-        const Pose flange = pair.second.flangeInWorld({other.joints, other.extax});
-        return robot::inverse(flange) * pair.first.current().tcp;
-    };
+namespace {
+
+/// The targets of the first robot are given in the flange frame of the second one.
+struct CarriedPair : Pair {
     const Pose held = inOther();
-    const auto order = [&](const Pose& target, double y, double z, bool isFlyBy) {
-        MoveCommand first = lineTo(pair.first, 0, 0, 0, 400, isFlyBy);
-        first.frames.workObject.uframe = pair.second.flangeInWorld(pair.second.plannedEnd());
-        first.frames.carrier = &pair.second;
-        first.target.pose = target;
-        pair.order(first, lineTo(pair.second, 0, y, z, 400, isFlyBy));
-    };
+    Pose inOther() const {
+        const MotionState other = second.current();
+        const Pose flange = second.flangeInWorld({other.joints, other.extax});
+        return robot::inverse(flange) * first.current().tcp;
+    }
+    void orderIn(const Pose& target, double y, double z, bool isFlyBy) {
+        MoveCommand command = lineTo(first, 0, 0, 0, 400, isFlyBy);
+        command.frames.workObject.uframe = second.flangeInWorld(second.plannedEnd());
+        command.frames.carrier = &second;
+        command.target.pose = target;
+        order(command, lineTo(second, 0, y, z, 400, isFlyBy));
+    }
+};
+
+} // namespace
+
+TEST_CASE("a robot follows the work object that the other one carries", "[motion][together]") {
+    CarriedPair pair;
     SECTION("at rest in it") {
-        order(held, 40, 0, true);
-        order(held, 0, 40, true);
-        order(held, -40, 0, false);
+        pair.orderIn(pair.held, 40, 0, true);
+        pair.orderIn(pair.held, 0, 40, true);
+        pair.orderIn(pair.held, -40, 0, false);
         double worst = 0;
         for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
             for (MotionSystem* system : pair.both)
                 system->advanceTo(time);
-            worst = std::max(worst, norm(inOther().pos - held.pos));
+            worst = std::max(worst, norm(pair.inOther().pos - pair.held.pos));
         }
         CHECK(worst < 1e-3);
         CHECK(pair.first.currentTarget({}).pose.pos.y == Approx(0).margin(1e-3));
     }
     SECTION("on a line in it") {
-        order(robot::offs(held, 0, 0, 60), 60, -30, false);
+        pair.orderIn(robot::offs(pair.held, 0, 0, 60), 60, -30, false);
         double worst = 0;
         double fastest = 0;
         for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
             for (MotionSystem* system : pair.both)
                 system->advanceTo(time);
-            const Pose now = inOther();
-            worst = std::max(worst, std::hypot(now.pos.x - held.pos.x, now.pos.y - held.pos.y));
+            const Pose now = pair.inOther();
+            worst = std::max(worst, std::hypot(now.pos.x - pair.held.pos.x, now.pos.y - pair.held.pos.y));
             fastest = std::max(fastest, pair.first.current().tcpSpeed);
         }
         CHECK(worst < 1e-3);
-        CHECK(inOther().pos.z - held.pos.z == Approx(60).margin(1e-6));
+        CHECK(pair.inOther().pos.z - pair.held.pos.z == Approx(60).margin(1e-6));
         CHECK(fastest <= 400.5); // relative to the work object
     }
+}
+
+TEST_CASE("corners in a work object that another robot carries", "[motion][together]") {
+    CarriedPair pair;
+    // The path relative to the work object is the same as without a carrier: two lines and a curve in their plane that
+    // keeps within their angle, and no jump of the place in it.
+    const auto order2 = [&](double x, double y, double z, bool isFlyBy) {
+        pair.orderIn(robot::offs(pair.held, 0, x, y), 30, z, isFlyBy);
+    };
+    order2(0, 60, -30, true);
+    order2(60, 60, 20, false);
+    double aside = 0, fastest = 0, beyond = 0;
+    std::optional<Vec3> last;
+    for (TimeNs time = 0; pair.first.nextEventTime() || pair.second.nextEventTime(); time += kMs) {
+        for (MotionSystem* system : pair.both)
+            system->advanceTo(time);
+        const Vec3 now = pair.inOther().pos - pair.held.pos;
+        aside = std::max(aside, std::abs(now.x));
+        beyond = std::max({beyond, -now.y, now.z - 60});
+        if (last) fastest = std::max(fastest, norm(now - *last) / 1e-3);
+        last = now;
+    }
+    CHECK(aside < 1e-3);
+    CHECK(beyond < 1e-3);
+    CHECK(fastest <= 404);
+    CHECK(norm(pair.inOther().pos - pair.held.pos - Vec3{0, 60, 60}) < 1e-6);
 }
