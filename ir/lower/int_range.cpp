@@ -24,8 +24,7 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::valueRange(const Expr&
 std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOf(const Expr& outer, bool ofValue) const {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
-    if (facts.type().isArray() || facts.type().type->base()->kind != sema::TypeKind::Num)
-        return std::nullopt;
+    if (facts.type().isArray() || facts.type().type->base()->kind != sema::TypeKind::Num) return std::nullopt;
     if (facts.constant && facts.constant->kind == sema::ConstValue::Kind::Number) {
         const double v = facts.constant->number;
         if (std::abs(v) > kConstantLimit || v != static_cast<double>(static_cast<int64_t>(v)))

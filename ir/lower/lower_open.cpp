@@ -244,7 +244,8 @@ std::string_view RoutineLowering::missingInCallStmt(const CallStmt& stmt, Langua
     if (!bound) return name;
     LanguageError ignored = LanguageError::None;
     for (const BoundArg& arg : found->second.args)
-        if (arg.value && (isUnknown(info(*arg.value).type()) || !missingReference(*arg.value, ignored).empty()))
+        if (arg.value &&
+            (isUnknown(info(*arg.value).type()) || !missingReference(*arg.value, ignored).empty()))
             return name;
     return {};
 }

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// What one line of the input means.
+/// The meaning of one line of the input.
 struct Words {
     char letter = 0;
     int64_t number = 0, second = 0;

@@ -164,7 +164,7 @@ class Push(LspCase):
 
 
     def test_related_places_follow_an_edit_that_keeps_offsets(self):
-        """DiagnosticRelatedInformation.location: the place in the text as it is, also when the edit has as many bytes as it replaces."""
+        """DiagnosticRelatedInformation.location: the place in the text as it is, even when the edit has as many bytes as it replaces."""
         first = 'MODULE a\n\n  VAR string s := "ab"; PROC main()\n  ENDPROC\nENDMODULE\n'
         second = "MODULE b\n  PROC main()\n  ENDPROC\nENDMODULE\n"
         paths = self.write("a.modx", first), self.write("b.modx", second)

@@ -45,8 +45,7 @@ const char* stateOf(const rt::Task& task) {
 
 class ExecutionArea final : public Area {
   public:
-    explicit ExecutionArea(const Context& context)
-        : controller_(context.controller), hub_(context.hub) {
+    explicit ExecutionArea(const Context& context) : controller_(context.controller), hub_(context.hub) {
         service::Observer observer;
         observer.changed = [this](Change change, const rt::Task* task) { note(change, task); };
         observer_ = controller_.observers().add(std::move(observer));

@@ -56,8 +56,7 @@ class PieceOfEnd : public ListStrategy {
         if (panic() || !at.own.has(end) || !typos().isPieceOf(pos(), end)) return {};
         const bool inLine = block().opening != kNoToken && startsLine(block().opening) &&
                             columnOf(pos()) == columnOf(block().opening);
-        const bool fits =
-            end == block().routineEnd ? kNext.has(peek()) : inLine && block().closesHere(end);
+        const bool fits = end == block().routineEnd ? kNext.has(peek()) : inLine && block().closesHere(end);
         return fits ? keyword(pos(), pos(), end) : Proposal();
     }
 };

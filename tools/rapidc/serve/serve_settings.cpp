@@ -55,14 +55,16 @@ std::string readPassword(ServeSettings& settings) {
     return {};
 }
 
-constexpr std::size_t kMostFolders = 20'000; ///< of a volume that are looked into before the controller begins
+constexpr std::size_t kMostFolders =
+    20'000; ///< of a volume that are looked into before the controller begins
 
-/// What a process that was killed has left in a volume: uploads, copies and backups that were not complete.
+/// Removes uploads, copies and backups that a killed process left incomplete in a volume.
 void removeRests(const std::string& volume) {
     if (volume.empty()) return;
     rapid::config::removeLeftovers(volume);
     std::error_code error;
-    auto folder = fs::recursive_directory_iterator(volume, fs::directory_options::skip_permission_denied, error);
+    auto folder =
+        fs::recursive_directory_iterator(volume, fs::directory_options::skip_permission_denied, error);
     std::size_t looked = 0;
     for (; !error && folder != fs::recursive_directory_iterator() && looked < kMostFolders;
          folder.increment(error)) {
