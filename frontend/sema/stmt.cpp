@@ -199,11 +199,11 @@ bool Statements::forStmt(const ForStmt& s) {
 // Values of all cases first: a group signal as subject takes its numeric type from them.
 void Statements::testValues(const TestStmt& s, Typed subject) {
     std::vector<std::pair<const Expr*, Typed>> values;
-    const DataType& type = subject.info->type(); // changes when a value decides between num and dnum
+    // The type of the subject changes when a value decides between num and dnum.
     const bool known = !subject.isError();
     for (const TestCase* c : s.cases) {
         for (const Expr* value : c->values) {
-            const Typed t = expressions_.expr(*value, &type);
+            const Typed t = expressions_.expr(*value, &subject.info->type());
             if (t.isError() || !known) continue;
             const bool decides = subject.flex != Flex::None && t.flex == Flex::None &&
                                  t.info->type().rank == 0 && t.info->type().type->isNumeric();
@@ -216,9 +216,9 @@ void Statements::testValues(const TestStmt& s, Typed subject) {
     }
     std::unordered_set<std::string> seen;
     for (const auto& [value, t] : values) {
-        if (!expressions_.fits(*value, t, type)) {
+        if (!expressions_.fits(*value, t, subject.info->type())) {
             const auto names = typeNames(t.info->type(), subject.info->type());
-            const Remedy remedy = remedies_.remedyFor(*value, t.info->type(), type);
+            const Remedy remedy = remedies_.remedyFor(*value, t.info->type(), subject.info->type());
             remedies_.offer(
                 report(say::TestValueType, range(*value), {names[0], names[1]}, {Misfit::Type, *value}),
                 *value, remedy);

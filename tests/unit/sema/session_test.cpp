@@ -78,7 +78,7 @@ void showFacts(const Module& module, const syntax::Node& node, std::string& out)
     if (syntax::isExpr(node.kind)) {
         const ExprInfo& info = facts.exprs[syntax::as<syntax::Expr>(node).id];
         out += std::to_string(node.first) + " " + show(info.type()) + " " + place(info.symbol) + " " +
-               std::to_string(info.component) + " " + (info.constant ? show(*info.constant) : "") + "\n";
+               (info.constant ? show(*info.constant) : "") + "\n";
     }
     if (const auto call = facts.calls.find(&node); call != facts.calls.end()) {
         out += "call " + place(call->second.routine) + " from " + call->second.module->name;
