@@ -33,6 +33,12 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
+/// The error handler of the frame's routine is in progress.
+bool isInHandlerOf(const Frame& frame) {
+    const StmtDesc* statement = statementOf(frame);
+    return statement != nullptr && statement->handled == 0;
+}
+
 /// The same for a record that may have been left.
 bool isInProgress(const Frame* from, const Frame* wanted) {
     int above = 0; // without one that lies below
@@ -433,7 +439,7 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    return inProgress && handled.frame->routine == handled.routine && inErrorHandler(*handled.frame);
+    return inProgress && handled.frame->routine == handled.routine && isInHandlerOf(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
@@ -450,7 +456,7 @@ void Task::dropHandled(const Frame* outermost) {
 
 void Task::skipWarn() {
     const auto isOwn = [this](const HandledError& handled) {
-        return handled.frame == frame && handled.routine == frame->routine && inErrorHandler(*frame);
+        return handled.frame == frame && handled.routine == frame->routine && isInHandlerOf(*frame);
     };
     if (!handled_.empty() && isOwn(handled_.back())) return handled_.pop_back(); // as a rule
     flushHandledWarning();
