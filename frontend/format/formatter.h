@@ -1,5 +1,5 @@
 #pragma once
-// Lays out a module again: white space and the case of keywords change, nothing else.
+// Formats a module: white space and the case of keywords change, nothing else.
 
 #include "frontend/diag/diagnostic.h"
 #include "frontend/format/format_settings.h"
