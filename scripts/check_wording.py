@@ -26,7 +26,7 @@ HABITS = [
     (r"\bbe it\b", "which may be"),
     (r"\banew\b", "again"),
     (r"\bkeeps? step with\b", "keeps pace with"),
-    (r"\ball is well\b", "there is no problem"),
+    (r"\ball is well\b", "succeeds, has no problems"),
     (r"\bon every way\b", "on every path"),
     (r"\bmend(s|ed|ing)?\b", "correct"),
     (r"\bpassed over\b", "skipped"),

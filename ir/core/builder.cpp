@@ -99,14 +99,12 @@ void Builder::beginShared() {
     if (sharedIn_ == block_ && !terminated()) return;
     if (terminated()) block_ = addBlock("dead");
     sharedIn_ = block_;
-    null_ = false_ = kNone;
-    globalAddresses_.clear();
-    localAddresses_.clear();
+    ++span_;
 }
 
-ValueId Builder::shared(ValueId& known, Inst inst) {
-    if (known == kNone) known = emit(std::move(inst));
-    return known;
+ValueId Builder::shared(SharedValue& known, Inst inst) {
+    if (known.span != span_) known = {span_, emit(std::move(inst))};
+    return known.value;
 }
 
 ValueId Builder::constBool(bool value) {
@@ -124,13 +122,12 @@ ValueId Builder::param(uint32_t index) {
 }
 ValueId Builder::localAddr(uint32_t local) {
     beginShared();
-    return shared(localAddresses_.try_emplace(local, kNone).first->second,
-                  makeIndexed(Op::LocalAddr, kPtr, local));
+    if (local >= localAddresses_.size()) localAddresses_.resize(routine_.locals.size());
+    return shared(localAddresses_[local], makeIndexed(Op::LocalAddr, kPtr, local));
 }
 ValueId Builder::globalAddr(uint32_t global) {
     beginShared();
-    return shared(globalAddresses_.try_emplace(global, kNone).first->second,
-                  makeIndexed(Op::GlobalAddr, kPtr, global));
+    return shared(globalAddresses_[global], makeIndexed(Op::GlobalAddr, kPtr, global));
 }
 ValueId Builder::typeDescAddr(uint32_t desc) {
     return emit(makeIndexed(Op::TypeDescAddr, kPtr, desc));

@@ -472,15 +472,23 @@ class Builder {
     Module& module_;
     /// Null, false and addresses of data, which calls with many optional arguments need again and again: one instruction each
     /// in a block.
-    ValueId shared(ValueId& known, Inst inst);
+    /// A value that several instructions of a block use; valid while `span` is the one in progress.
+    struct SharedValue {
+        uint32_t span = 0;
+        ValueId value = kNone;
+    };
+    ValueId shared(SharedValue& known, Inst inst);
     void beginShared();
 
     Routine& routine_;
     BlockId block_ = 0;
     StmtId stmt_ = kNone;
-    BlockId sharedIn_ = kNone; ///< the block that those below are in
-    ValueId null_ = kNone, false_ = kNone;
-    std::unordered_map<uint32_t, ValueId> globalAddresses_, localAddresses_;
+    BlockId sharedIn_ = kNone; ///< the block that the shared values of this span are in
+    uint32_t span_ =
+        0; ///< counted, since emptying tables at each block would take time for all they have held
+    SharedValue null_, false_;
+    std::unordered_map<uint32_t, SharedValue> globalAddresses_;
+    std::vector<SharedValue> localAddresses_; ///< by number of the local
 };
 
 } // namespace ir

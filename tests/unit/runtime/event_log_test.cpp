@@ -135,7 +135,7 @@ TEST_CASE("an event that is only counted again leaves what writing it again leav
     CHECK(counted.lines() == written.lines());
 }
 
-TEST_CASE("an event is written again when somebody hears each, or the error has another name by now",
+TEST_CASE("an event is written again if a listener is registered or the error number has a new name",
           "[log]") {
     Bench bench;
     bench.write("a");

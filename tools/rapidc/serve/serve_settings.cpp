@@ -55,8 +55,8 @@ std::string readPassword(ServeSettings& settings) {
     return {};
 }
 
-constexpr std::size_t kMostFolders =
-    20'000; ///< of a volume that are looked into before the controller begins
+/// Folders of a volume that are searched before the controller starts.
+constexpr std::size_t kMostFolders = 20'000;
 
 /// Removes uploads, copies and backups that a killed process left incomplete in a volume.
 void removeRests(const std::string& volume) {
