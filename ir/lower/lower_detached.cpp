@@ -91,7 +91,7 @@ ir::Routine RoutineLowering::runDetached(const RoutineLowering& body) {
     openCosts(costs);
     lowerErrorClauses();
     closeCosts();
-    chargeAtFront(0, costs.cost());
+    if (costs.statements > 0) chargeAtFront(0, costs.cost());
     clearArrayBuffers(0);
     routine_.errorFilter.clear(); // the routine's own: it is asked before this one runs
     routine_.errorFilterGlobals.clear();

@@ -284,7 +284,8 @@ void RoutineLowering::lowerErrorHandler() {
     openCosts(costs);
     lowerErrorClauses();
     closeCosts();
-    chargeAtFront(begin, costs.cost());
+    // An empty handler has no statement at which a safepoint could find the task, and its end is an event of its own.
+    if (costs.statements > 0) chargeAtFront(begin, costs.cost());
 }
 
 void RoutineLowering::lowerErrorClauses() {
