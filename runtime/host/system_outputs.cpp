@@ -28,6 +28,7 @@ SystemOutputs::State SystemOutputs::stateOf(std::string_view word) {
         {"MechUnitActive", State::UnitActive},
         {"Error", State::Error},
         {"ExecutionError", State::Error},
+        {"ProdExecError", State::ProductionError},
         {"MotorOn", State::MotorsOn},
         {"MotOnState", State::MotorsOn},
         {"MotorOff", State::MotorsOff},
@@ -42,12 +43,14 @@ SystemOutputs::State SystemOutputs::stateOf(std::string_view word) {
         {"PPMoved", State::PointerMoved},
         {"PowerFail", State::PathLost},
         {"PowerFailError", State::PathLost},
+        {"PFError", State::PathLost},
         {"SimMode", State::SimulationMode},
         {"TCPSpeed", State::Speed},
         {"TCPSpeedRef", State::Speed},
         {"SpeedOverride", State::SpeedOverride},
         {"BackupError", State::BackupError},
         {"BackupInProgress", State::BackupInProgress},
+        {"Blocked I/O", State::Never},
         {"CollAvoidance", State::Never},
         {"CPUFanNotRun", State::Never},
         {"EnergySaving", State::Never},
@@ -146,6 +149,7 @@ double SystemOutputs::valueOf(const Output& output) {
     case State::TaskExecuting: return isExecuting(output.task) ? 1 : 0;
     case State::Production: return panel.mode == OperatingMode::Auto && isExecuting("") ? 1 : 0;
     case State::Error: return hasError(output.task) ? 1 : 0;
+    case State::ProductionError: return panel.mode == OperatingMode::Auto && hasError("") ? 1 : 0;
     case State::MotorsOn: return controller_.motorsOn() ? 1 : 0;
     case State::MotorsOff: return controller_.motorsOn() ? 0 : 1;
     case State::EmergencyStop: return panel.emergencyStop ? 1 : 0;

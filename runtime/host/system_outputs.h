@@ -38,6 +38,7 @@ class SystemOutputs {
         Production,
         NotMoving,
         Error,
+        ProductionError,
         MotorsOn,
         MotorsOff,
         EmergencyStop,
