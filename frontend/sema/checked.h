@@ -95,6 +95,8 @@ struct FileSymbols {
     Store<RoutineSymbol> routineSymbols{arena};
 };
 
+struct FileSignalUses;
+
 /// Everything that one check of a file makes, except what belongs to the whole task.
 struct FileFacts {
     FileFacts(const syntax::SyntaxTree& tree, const Type* unknown, std::shared_ptr<FileSymbols> own,
@@ -109,7 +111,10 @@ struct FileFacts {
     std::vector<Symbol*> used; ///< symbols that this file refers to; some more than once
     std::vector<DataSymbol*> assigned;
     std::vector<std::pair<DataSymbol*, syntax::TokenIndex>>
-        signals;  ///< configured objects it names, in order
+        signals; ///< configured objects it names, in order
+    /// How it uses names that nothing declares; null: not looked for. Valid as long as the facts: a check that changes what other
+    /// files declare renews them all.
+    std::shared_ptr<const FileSignalUses> signalUses;
     Arena values; ///< parts of the values of module data
     Arena inner;  ///< all that follows; values inside routines and arguments, too
     ExprTable exprs;

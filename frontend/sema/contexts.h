@@ -96,15 +96,31 @@ struct ComparedName {
     double least = 0, most = 0;
     bool fraction = false; ///< one of them is not an integer
     bool unknown = false;  ///< of one the value is not known
+
+    void add(const ComparedName& other) {
+        least = std::min(least, other.least);
+        most = std::max(most, other.most);
+        fraction |= other.fraction;
+        unknown |= other.unknown;
+    }
 };
 
-/// How the routines of a task use names that nothing declares; worked out when the first of them is met.
+/// How the routines of a file use names that nothing declares. Refers to no other file, so that it stays when others change.
+struct FileSignalUses {
+    std::unordered_map<NameId, const Type*>
+        arguments; ///< for parameters of a signal type; the first use counts
+    std::unordered_map<NameId, ComparedName> compared;
+    std::vector<std::pair<NameId, NameId>>
+        comparedWith;                  ///< a name, and one that counts if it is known as a signal
+    std::unordered_set<NameId> others; ///< assigned, calculated with, or declared in some routine
+};
+
+/// The same for the task; put together when the first of the names is met.
 struct SignalUses {
     bool known = false;
-    NameMap<const Type> arguments; ///< for parameters of a signal type
+    NameMap<const Type> arguments;
     std::unordered_map<NameId, ComparedName> compared;
-    std::unordered_set<NameId> others; ///< assigned, calculated with, or declared in some routine
-    std::unordered_map<NameId, syntax::TokenIndex> own; ///< names of the routine that is read; their types
+    std::vector<std::shared_ptr<const FileSignalUses>> files;
 };
 
 /// Facts about a task. A Session keeps them between checks.

@@ -101,15 +101,17 @@ const Type* SignalFinder::signalTypeByName(const std::string& name) {
 }
 
 const Type* SignalFinder::signalTypeByUse(NameId name) {
-    if (!task_.signalUses.known) gatherSignalUses();
+    if (!task_.signalUses.known) gatherOfTask();
     return task_.signalUses.arguments.find(name);
 }
 
 // The type of a name that is known by comparisons with numbers only; null when its use shows that it is not a signal.
 const Type* SignalFinder::signalTypeByComparison(const std::string& written, NameId name) {
-    if (!task_.signalUses.known) gatherSignalUses();
+    if (!task_.signalUses.known) gatherOfTask();
     const auto found = task_.signalUses.compared.find(name);
-    if (found == task_.signalUses.compared.end() || task_.signalUses.others.contains(name)) return nullptr;
+    if (found == task_.signalUses.compared.end()) return nullptr;
+    for (const auto& file : task_.signalUses.files)
+        if (file->others.contains(name)) return nullptr;
     const std::string_view folded = names_.folded(name);
     if (task_.moduleNames.find(name) || !addInOf(folded, false, false).empty()) return nullptr;
     for (const Module* module : task_.task->modules)
@@ -130,29 +132,71 @@ bool SignalFinder::isMisspeltNumber(NameId name) {
     return number && isMisspelt(names_.folded(name), names_.folded(data.nameId));
 }
 
-void SignalFinder::gatherSignalUses() {
+/// Files whose facts are still those of the last check are not read again: after an edit that is all but one.
+void SignalFinder::gatherOfTask() {
     task_.signalUses.known = true;
     const Context saved = context_;
+    std::shared_ptr<FileSignalUses> file;
+    FileFacts* reading = nullptr; // the facts of the modules of one tree, which lie together
     for (Module* module : task_.task->modules) {
-        state_.enterModule(module);
-        for (const RoutineSymbol* routine : module->routines) {
-            const RoutineDecl& decl = *routine->routineDecl;
-            task_.signalUses.own.clear();
-            for (const ParamDecl* param : decl.params)
-                declareOwn(param->name, param->type);
-            for (const DataDecl* data : decl.data)
-                declareOwn(data->name, data->type);
-            gatherSignalUses(decl);
+        if (module->facts != reading) {
+            reading = nullptr;
+            if (!module->facts->signalUses) {
+                reading = module->facts;
+                reading->signalUses = file = std::make_shared<FileSignalUses>();
+            }
+            task_.signalUses.files.push_back(module->facts->signalUses);
         }
+        if (!reading) continue;
+        file_ = file.get();
+        gatherOfModule(*module);
     }
     context_ = saved;
+    mergeFiles();
+}
+
+void SignalFinder::mergeFiles() {
+    SignalUses& uses = task_.signalUses;
+    for (const auto& file : uses.files)
+        for (const auto& [name, type] : file->arguments)
+            if (!uses.arguments.find(name)) uses.arguments.set(name, type);
+    for (const auto& file : uses.files) {
+        for (const auto& [name, compared] : file->compared)
+            uses.compared[name].add(compared);
+        for (const auto& [name, partner] : file->comparedWith)
+            if (uses.arguments.find(partner)) uses.compared[name].unknown = true;
+    }
+}
+
+void SignalFinder::gatherOfModule(Module& module) {
+    state_.enterModule(&module);
+    for (const RoutineSymbol* routine : module.routines) {
+        const RoutineDecl& decl = *routine->routineDecl;
+        own_.clear();
+        for (const ParamDecl* param : decl.params)
+            declareOwn(param->name, param->type);
+        for (const DataDecl* data : decl.data)
+            declareOwn(data->name, data->type);
+        gatherSignalUses(decl);
+    }
+}
+
+/// Outside the routine. A signal that is known by its use only is not declared: the use may be gone at the next check.
+Symbol* SignalFinder::declared(NameId name) {
+    Symbol* symbol = scopes_.lookupOutside(name);
+    const DataSymbol* data = asData(symbol);
+    return data && data->assumed ? nullptr : symbol;
+}
+
+bool SignalFinder::isUndeclared(NameId name) {
+    return !own_.contains(name) && !declared(name);
 }
 
 // A name of the routine itself is not a signal in any other routine either: there its declaration is missing.
 void SignalFinder::declareOwn(TokenIndex name, TokenIndex type) {
     if (!isName(name)) return;
-    task_.signalUses.own[idOf(name)] = type;
-    task_.signalUses.others.insert(idOf(name));
+    own_[idOf(name)] = type;
+    file_->others.insert(idOf(name));
 }
 
 void SignalFinder::gatherSignalUses(const Node& node) {
@@ -214,17 +258,19 @@ void SignalFinder::usedOtherwise(const Expr& place) {
     while (e->kind == NodeKind::Index || e->kind == NodeKind::Component)
         e = e->kind == NodeKind::Index ? as<IndexExpr>(*e).base : as<ComponentExpr>(*e).base;
     if (e->kind == NodeKind::Name && isName(as<NameExpr>(*e).name))
-        task_.signalUses.others.insert(idOf(as<NameExpr>(*e).name));
+        file_->others.insert(idOf(as<NameExpr>(*e).name));
 }
 
 void SignalFinder::compared(const Expr& side, const Expr& number) {
     const Expr& e = bare(side);
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (task_.signalUses.own.contains(name) || scopes_.lookupOutside(name)) return;
+    if (!isUndeclared(name)) return;
+    partner_.reset();
     const Type* type = looseType(number);
+    if (!type && partner_) file_->comparedWith.emplace_back(name, *partner_);
     if (!type || !isPlainNumber(*type)) return;
-    ComparedName& use = task_.signalUses.compared[name];
+    ComparedName& use = file_->compared[name];
     double value = 0;
     if (!looseNumber(number, value)) {
         use.unknown = true;
@@ -235,7 +281,7 @@ void SignalFinder::compared(const Expr& side, const Expr& number) {
     use.least = std::min(use.least, value);
 }
 
-// The type of an expression as far as it is known before anything is checked; null: not known.
+// The type of an expression as far as it is known before anything is checked; null: not known, or that of partner_.
 const Type* SignalFinder::looseType(const Expr& expr) {
     const Expr& e = bare(expr);
     switch (e.kind) {
@@ -245,6 +291,7 @@ const Type* SignalFinder::looseType(const Expr& expr) {
         const auto& binary = as<BinaryExpr>(e);
         if (binary.op >= BinaryOp::Lt) return nullptr;
         const Type* type = looseType(*binary.right);
+        partner_.reset(); // nothing is calculated with signals
         return type && type->isNumeric() ? type->base() : nullptr;
     }
     case NodeKind::Call: {
@@ -255,6 +302,7 @@ const Type* SignalFinder::looseType(const Expr& expr) {
     case NodeKind::Component: {
         const auto& part = as<ComponentExpr>(e);
         const Type* record = part.name == kNoToken ? nullptr : looseType(*part.base);
+        partner_.reset(); // signals have no components
         const int index = record ? record->findComponent(context_.tree->text(part.name)) : -1;
         return index < 0 ? nullptr : record->base()->components[static_cast<size_t>(index)].type;
     }
@@ -263,16 +311,17 @@ const Type* SignalFinder::looseType(const Expr& expr) {
     }
     if (!isName(as<NameExpr>(e).name)) return nullptr;
     const NameId name = idOf(as<NameExpr>(e).name);
-    if (const auto own = task_.signalUses.own.find(name); own != task_.signalUses.own.end()) {
+    if (const auto own = own_.find(name); own != own_.end()) {
         if (own->second == kNoToken) return program_.num; // of a FOR
         TypeSymbol* type = scopes_.findType(idOf(own->second));
         return type ? types_.ensureType(*type) : nullptr;
     }
-    if (DataSymbol* data = asData(scopes_.lookupOutside(name))) {
+    if (DataSymbol* data = asData(declared(name))) {
         data_.ensureData(*data);
         return data->type.type;
     }
-    return task_.signalUses.arguments.find(name);
+    partner_ = name;
+    return nullptr;
 }
 
 // The value of a literal or a constant.
@@ -289,7 +338,7 @@ bool SignalFinder::looseNumber(const Expr& expr, double& value) {
     }
     if (e.kind != NodeKind::Name || !isName(as<NameExpr>(e).name)) return false;
     const NameId name = idOf(as<NameExpr>(e).name);
-    DataSymbol* data = task_.signalUses.own.contains(name) ? nullptr : asData(scopes_.lookupOutside(name));
+    DataSymbol* data = own_.contains(name) ? nullptr : asData(scopes_.lookupOutside(name));
     if (!data || data->dataKind != DataKind::Const || data->storage != Storage::ModuleData) return false;
     data_.ensureValue(*data);
     value = data->value().kind == ConstValue::Kind::Number ? data->value().number : 0;
@@ -321,11 +370,11 @@ void SignalFinder::gatherSignalUses(const RoutineSymbol& routine, std::span<Argu
         const bool either =
             param->accepts == ParamClass::SignalOrString || param->accepts == ParamClass::Signal;
         const Type* type = either ? partner : param->type.type;
-        if (!type || task_.signalUses.own.contains(name) || scopes_.lookupOutside(name)) continue;
+        if (!type || !isUndeclared(name)) continue;
         if (type->kind != TypeKind::SemiValue) {
             if (!either && param->mode != ParamMode::In) usedOtherwise(*a->value);
-        } else if (!task_.signalUses.arguments.find(name)) {
-            task_.signalUses.arguments.set(name, type);
+        } else {
+            file_->arguments.try_emplace(name, type->base()); // a type of its own may go with its file
         }
     }
 }

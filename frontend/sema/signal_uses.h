@@ -18,9 +18,13 @@ class SignalFinder : CheckerPart {
 
   private:
     bool isMisspeltNumber(NameId name);
-    void gatherSignalUses();
+    void gatherOfTask();
+    void mergeFiles();
+    void gatherOfModule(Module& module);
     void gatherSignalUses(const syntax::Node& node);
     void gatherSignalUses(const RoutineSymbol& routine, std::span<syntax::Argument* const> args);
+    Symbol* declared(NameId name);
+    bool isUndeclared(NameId name);
     void declareOwn(syntax::TokenIndex name, syntax::TokenIndex type);
     void operands(const syntax::BinaryExpr& e);
     void usedOtherwise(const syntax::Expr& place);
@@ -32,6 +36,9 @@ class SignalFinder : CheckerPart {
     Scopes& scopes_;
     Suggestions& suggestions_;
     TypeResolver& types_;
+    FileSignalUses* file_ = nullptr;                     ///< of the file that is read
+    std::unordered_map<NameId, syntax::TokenIndex> own_; ///< names of the routine that is read; their types
+    std::optional<NameId> partner_; ///< an undeclared name that gives the latest looseType
 };
 
 } // namespace rapid::sema
