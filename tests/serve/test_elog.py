@@ -147,6 +147,15 @@ class EventLog(ServeCase):
         self.assertEqual(int(message["argc"]), len(message["argv"]))
         self.assertIn({"type": "string", "value": "T_ROB1"},
                       [{"type": each["type"], "value": each["value"]} for each in message["argv"]])
+        self.typed_arguments(message)
+
+    def typed_arguments(self, message):
+        """Decision 128: XHTML of order=lifo has the types of the arguments as attributes; all other has spans without (line 20)."""
+        expected = [(f"arg{i}", each["type"], each["value"]) for i, each in enumerate(message["argv"], 1)]
+        for version, order, ending in (("2.0", "", ""), ("2.0", "&order=lifo", ' type="([a-z]+)"'), ("2.1", "", ' type="([a-z]+)"')):
+            text = self.client(2).get(f"{message['_title']}?lang=en{order}", headers={"Accept": f"application/xhtml+xml;v={version}"}).body.decode()
+            found = re.findall(f'<span class="(arg[0-9]+)"{ending}>([^<]*)</span>', text)
+            self.assertEqual(found, expected if ending else [(name, value) for name, _, value in expected])
 
     def test_arguments_of_the_program(self):
         """Published clients find header and lines of ErrWrite by their places, argument 1 to 5; a line that is left out is empty."""
