@@ -116,7 +116,7 @@ std::string baseFolder(std::string_view path) {
         return path.substr(0, root.size()) == root &&
                (path.size() == root.size() || path[root.size()] == '/');
     };
-    for (const std::string_view root : {"/rw/mastership", "/users", "/uas"})
+    for (const std::string_view root : {"/rw/mastership", "/rw/elog", "/users", "/uas"})
         if (isIn(root)) return std::string(root) + "/";
     if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
     return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
