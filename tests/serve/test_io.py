@@ -184,7 +184,7 @@ class Io(ServeCase):
 
     def test_one_signal_of_2_0_has_both_classes(self):
         """Decision 129: clients of RWS 2.0 look for ios-signal (facts 2.3) or for ios-signal-li; both have the same spans."""
-        for form in ("json", "xhtml"):
+        for form in ("hal", "xhtml"):
             first, second = self.client(2, form=form).get(f"{SIGNALS}/doLamp").entries()
             self.assertEqual((first.type, second.type), ("ios-signal", "ios-signal-li"))
             self.assertEqual((first.title, first.values), (second.title, second.values))
