@@ -361,6 +361,8 @@ Status Task::safepointOnce(Frame* at) {
         } else if (yieldWanted_) {
             if (yieldsAtStatement(at)) {
                 forceLook();
+                later_.forcedTo =
+                    LaterCharges::kNotForced; // the other profiles yield here, before any further charge
                 return kOk;
             }
             yieldWanted_ = false;

@@ -17,10 +17,8 @@ def profiles(rapidc, work, source, options):
         yield " ".join(["run", *flags]), output([rapidc, "run", *flags, source, *options])
     for flags in [], ["--stepping"]:
         executable = os.path.join(work, "program")
-        subprocess.run([rapidc, "build", *flags, source, "-o", executable,
-                        *[option for option in options if option.startswith("--task=")]], check=True)
-        yield " ".join(["build", *flags]), output(
-            [executable, *[option for option in options if not option.startswith("--task=")]])
+        subprocess.run([rapidc, "build", *flags, source, "-o", executable, *options], check=True)
+        yield " ".join(["build", *flags]), output([executable])
 
 
 def main(rapidc, work, source, *options):
