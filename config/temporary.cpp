@@ -156,6 +156,22 @@ void removeLeftovers(const fs::path& folder) {
         removeIfAbandoned(path);
 }
 
+void removeLeftoversBelow(const fs::path& folder, std::size_t most) {
+    std::error_code error;
+    std::vector<fs::path> found;
+    std::size_t folders = 1;
+    fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+    for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
+        const bool isLeftover = isOurs(it->path().filename().native());
+        if (isLeftover) found.push_back(it->path());
+        std::error_code ignored;
+        if (it->is_directory(ignored) && !it->is_symlink(ignored) && (isLeftover || folders++ >= most))
+            it.disable_recursion_pending();
+    }
+    for (const fs::path& path : found)
+        removeIfAbandoned(path);
+}
+
 void removeLeftoversBeside(const std::vector<std::string>& files) {
     std::set<fs::path> folders;
     for (const std::string& file : files)

@@ -52,6 +52,8 @@ class TemporaryFolder {
 /// Removes the temporary files and folders of this user in `folder` that no living process owns. Files of other
 /// programs, and what cannot be locked (some network file systems), stay.
 void removeLeftovers(const std::filesystem::path& folder);
+/// The same in a folder and all folders below it, of which `most` are read; links are not followed.
+void removeLeftoversBelow(const std::filesystem::path& folder, std::size_t most);
 /// The same in the folders of these files, in each once.
 void removeLeftoversBeside(const std::vector<std::string>& files);
 

@@ -179,6 +179,15 @@ Status Debugger::standStill(Task& task, StopReason reason) {
     noteStop(task, reason);
     task.setStepwise(true);
     task.stop(StopCause::Step);
+    // Steps of several tasks that were ordered together end by themselves; a client is to see everything stand still.
+    const auto steps = [&](const auto& other) {
+        const Mode mode = stateOf(*other).mode;
+        return other.get() != &task && other->kind() == TaskKind::Normal && other->isExecuting() &&
+               (mode == Mode::In || mode == Mode::Over || mode == Mode::Out || mode == Mode::Move);
+    };
+    if (reason == StopReason::Step && client_ == nullptr &&
+        std::any_of(host_.tasks().begin(), host_.tasks().end(), steps))
+        return task.suspendStopped();
     host_.stopNormalTasks(StopCause::Order);
     host_.forEachArm([](SteppedArm& arm) { arm.programStop(); });
     return task.suspendStopped();

@@ -35,9 +35,12 @@ struct Dialog {
     std::vector<float> results;       ///< what the program gets for each of the choices; may be empty
     std::vector<std::string> items;   ///< of a list, numbered from 1
     std::vector<std::size_t> visible; ///< numbers of the items that a terminal shows at present
-    std::string hint;                 ///< what may be answered, for people at a terminal; may be empty
-    bool answerable = true;           ///< false: it has no button, and something else ends it
-    Time deadline = kNever;           ///< absolute (\MaxTime)
+    std::string initial;              ///< text or number that the entry begins with; "" = none
+    std::optional<double> least, most, increment; ///< of a number: its limits, the step of its keys + and -
+    bool isWhole = false;                         ///< only whole numbers may be answered
+    std::string hint;       ///< what may be answered, for people at a terminal; may be empty
+    bool answerable = true; ///< false: it has no button, and something else ends it
+    Time deadline = kNever; ///< absolute (\MaxTime)
     /// Ends the dialog early (\DIBreak, \PersBoolBreak); looked at when one of `breakQueues` is notified.
     std::function<bool()> broken;
     std::vector<WaitQueue*> breakQueues;

@@ -122,9 +122,12 @@ export const simulatedSteps = {
         await page.waitForSelector("[role=dialog]", { state: "detached" });
         const number = { ...dialog, id: 8, kind: "number", choices: [], minimum: 1, maximum: 9, wholeNumbers: true, initial: "3" };
         server.cell.emit("dialog", { opened: number });
+        assert.equal(await page.inputValue("[role=dialog] input"), "3"); // the initial value of the program
+        await page.waitForSelector("[role=dialog] >> text=1 to 9, whole numbers");
         await page.fill("[role=dialog] input", "12");
         await page.press("[role=dialog] input", "Enter");
-        assert.notEqual(last(server, "dialogs.answer")?.id, 8); // beyond the maximum
+        await page.waitForSelector("[role=dialog] [role=alert] >> text=The largest value is 9."); // beyond the maximum: not sent
+        assert.notEqual(last(server, "dialogs.answer")?.id, 8);
         await page.fill("[role=dialog] input", "5");
         await page.press("[role=dialog] input", "Enter");
         await eventually(() => last(server, "dialogs.answer")?.number === 5, "number sent");

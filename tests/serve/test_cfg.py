@@ -55,6 +55,20 @@ class Cfg(ServeCase):
             return client.post(path + "?action=set", values)
         return client.post(path, {name: f"[{value},1]" for name, value in values.items()})
 
+    def test_validating_instances(self):
+        """A10: POST validate-instances of RWS 2.0; 204 when all of them are there, 404 for others, 400 when the count is wrong."""
+        client, path = self.client(2), "/rw/cfg/validate-instances"
+        names = [entry.values["instanceid"] for entry in client.get("/rw/cfg/eio/EIO_SIGNAL/instances").entries()][:2]
+
+        def validate(instances, count=None, type_="EIO_SIGNAL"):
+            fields = [("operation", "0"), ("cfgdomain", "EIO"), ("cfgtype", type_), ("instancescount", count or len(instances))]
+            return client.post(path, fields + [("instances", name) for name in instances]).status
+
+        self.assertEqual(validate(names), 204)
+        self.assertEqual(validate(names + ["none"]), 404)
+        self.assertEqual(validate(names, type_="NO_TYPE"), 404)
+        self.assertEqual((validate(names, count=9), validate([])), (400, 400))
+
     def test_domains_and_types(self):
         """Line 22: /rw/cfg cfg-domain-li, /rw/cfg/D cfg-dt-li."""
         for client in self.both():

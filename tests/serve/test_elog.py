@@ -135,6 +135,25 @@ class EventLog(ServeCase):
         self.assertEqual(one.get("/rw/elog/0?order=odd").status, 400)
         self.assertEqual(len(two.get("/rw/elog/8").json()["_embedded"]["resources"]), 50)
 
+    def test_what_the_app_sdk_reads(self):
+        """App SDK: the number of messages from resource=info, `start` as a page, the pages from rel=last, numbers from the hrefs."""
+        client = self.client(2)
+        self.write(client, 60)
+        info = client.get("/rw/elog/8?resource=info").entries()
+        self.assertEqual([(entry.type, entry.values["buffsize"]) for entry in info], [("elog-domain", "1000")])
+        count = int(info[0].values["numevts"])
+        self.assertGreaterEqual(count, 60)
+        links = client.get("/rw/elog/8?start=1&limit=20").links()
+        self.assertIn(f"start={(count + 19) // 20}&", links["last"].replace("&amp;", "&"))
+        self.assertTrue(client.get("/rw/elog/8").json()["_links"]["base"]["href"].endswith("/rw/elog/"))
+        read = []
+        for page in range(1, (count + 19) // 20 + 1):
+            read += [entry.links["self"].split("/") for entry in client.get(f"/rw/elog/8?start={page}&limit=20").entries()]
+        self.assertEqual([int(number) for _, number in read], self.all(client, 8))
+        self.assertEqual({domain for domain, _ in read}, {"8"})
+        one = client.get(f"/rw/elog/seqnum/{read[0][1]}?lang=en").json()
+        self.assertEqual([entry["_type"] for entry in one["state"]], ["elog-message"])
+
     def test_arguments(self):
         """Line 33: 10125 has arguments; facts 7: argc and argv, typed. The task is among them."""
         client = self.client(1, form="json")
@@ -147,6 +166,15 @@ class EventLog(ServeCase):
         self.assertEqual(int(message["argc"]), len(message["argv"]))
         self.assertIn({"type": "string", "value": "T_ROB1"},
                       [{"type": each["type"], "value": each["value"]} for each in message["argv"]])
+        self.typed_arguments(message)
+
+    def typed_arguments(self, message):
+        """Decision 128: XHTML of order=lifo has the types of the arguments as attributes; all other has spans without (line 20)."""
+        expected = [(f"arg{i}", each["type"], each["value"]) for i, each in enumerate(message["argv"], 1)]
+        for version, order, ending in (("2.0", "", ""), ("2.0", "&order=lifo", ' type="([a-z]+)"'), ("2.1", "", ' type="([a-z]+)"')):
+            text = self.client(2).get(f"{message['_title']}?lang=en{order}", headers={"Accept": f"application/xhtml+xml;v={version}"}).body.decode()
+            found = re.findall(f'<span class="(arg[0-9]+)"{ending}>([^<]*)</span>', text)
+            self.assertEqual(found, expected if ending else [(name, value) for name, _, value in expected])
 
     def test_arguments_of_the_program(self):
         """Published clients find header and lines of ErrWrite by their places, argument 1 to 5; a line that is left out is empty."""

@@ -62,6 +62,13 @@ class Files(ServeCase):
             client.put(top + "/inner/a.txt", "one", headers={"Content-Type": "text/plain;v=2.0"})
             self.assertEqual(self.act(client, top + "/inner/a.txt", "copy", {"fs-newname": "b.txt"}).status, 204)
             self.assertEqual(self.act(client, top + "/inner/a.txt", "copy", {"fs-newname": "b.txt"}).status, 409)
+            elsewhere = f"/fileservice/$TEMP/copy{client.dialect}.txt"  # decision 129: an address instead of a bare name
+            self.assertEqual(self.act(client, top + "/inner/a.txt", "copy", {"fs-newname": elsewhere}).status, 204)
+            self.assertEqual(client.get(elsewhere).body, client.get(top + "/inner/a.txt").body)
+            self.assertEqual(self.act(client, top + "/inner/a.txt", "copy", {"fs-newname": elsewhere}).status, 409)
+            self.assertEqual(self.act(client, top + "/inner", "copy", {"fs-newname": elsewhere + "2"}).status, 403)
+            for wrong in ("/fileservice/$TEMP/../x", "/fileservice/$NONE/x", "/fileservice/"):
+                self.assertEqual(self.act(client, top + "/inner/a.txt", "copy", {"fs-newname": wrong}).status // 100, 4)
             self.assertEqual(self.act(client, top + "/inner/b.txt", "rename", {"fs-newname": "c d&e.txt"}).status, 204)
             listed = client.get(top + "/inner")
             self.assertEqual(self.names(listed), {("fs-file", "a.txt"), ("fs-file", "c d&e.txt")})

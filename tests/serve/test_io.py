@@ -182,6 +182,14 @@ class Io(ServeCase):
             self.assertEqual(names(act(second, {"name": "o", "device": "Board1", "name2": "Lamp"})), {"doLamp"})
             self.assertEqual(len(names(act(plain, {}))), 100)
 
+    def test_one_signal_of_2_0_has_both_classes(self):
+        """Decision 129: clients of RWS 2.0 look for ios-signal (facts 2.3) or for ios-signal-li; both have the same spans."""
+        for form in ("hal", "xhtml"):
+            first, second = self.client(2, form=form).get(f"{SIGNALS}/doLamp").entries()
+            self.assertEqual((first.type, second.type), ("ios-signal", "ios-signal-li"))
+            self.assertEqual((first.title, first.values), (second.title, second.values))
+        self.assertEqual([entry.type for entry in self.client(1).get(f"{SIGNALS}/doLamp").entries()], ["ios-signal"])
+
     def test_networks_and_devices(self):
         """Facts 2.3: li ios-network-li, ios-device-li; line 24: devices answer to both paths."""
         for client in self.both():
@@ -190,6 +198,9 @@ class Io(ServeCase):
             self.assertEqual(devices["ProfNet/Board1"].values["lstate"], "enabled")
             for path in ("Board1", "ProfNet/Board1"):
                 self.assertEqual(client.get(f"/rw/iosystem/devices/{path}").values()["name"], "Board1")
+            ending = "-li" if client.dialect == 2 else ""  # App SDK: one network or device of 2.0 has the class of lists
+            self.assertEqual(client.get("/rw/iosystem/devices/ProfNet/Board1").entries()[0].type, "ios-device" + ending)
+            self.assertEqual(client.get("/rw/iosystem/networks/ProfNet").entries()[0].type, "ios-network" + ending)
             self.assertEqual(client.get("/rw/iosystem/devices/None1").status, 404)
             self.assertEqual(client.get("/rw/iosystem/devices?network=ProfNet").entries()[0].title, "ProfNet/Board1")
 

@@ -26,6 +26,10 @@ MODULE = """MODULE MainModule
     note := ValToStr(value);
     TPWrite note;
   ENDPROC
+  PROC enter()
+    count := UINumEntry(\\Header:="Parts" \\InitValue:=12 \\MinValue:=1 \\MaxValue:=40 \\AsInteger);
+    TPWrite UIAlphaEntry(\\Header:="Batch" \\InitString:="B-1");
+  ENDPROC
   PROC ask()
     VAR num answer;
     TPReadFK answer, "Continue?", "Yes", "", "No", "", "";
@@ -414,7 +418,7 @@ class Programs(PendantCase):
         self.assertEqual([(m["name"], m["kind"]) for m in modules], [("MainModule", "program")])
         self.assertEqual(self.page.call("modules.text", MAIN)["text"], MODULE)
         names = [r["name"] for r in self.page.call("modules.routines", TASK)["routines"]]
-        self.assertEqual(names, ["main", "helper", "ask", "teach"])
+        self.assertEqual(names, ["main", "helper", "enter", "ask", "teach"])
         self.refused("not_found", "modules.text", {"task": "T_ROB1", "module": "Nothing"})
 
     def test_load_save_unload(self):
@@ -575,6 +579,21 @@ class Operator(PendantCase):
         self.eventually(lambda: not self.panel()["running"])
         self.assertEqual(self.value("count"), "3")
         self.refused("not_found", "dialogs.answer", id=dialog["id"], choice=3)
+
+    def test_limits_of_an_entry(self):
+        """docs/pendant.md, Dialog: the value that an entry begins with, limits of a number, whole numbers."""
+        self.page.call("run.pointerToRoutine", {**MAIN, "routine": "enter"})
+        self.page.call("run.start")
+        number = self.page.wait("dialog", lambda data: "opened" in data)["opened"]
+        self.assertEqual([number[key] for key in ("kind", "initial", "minimum", "maximum", "wholeNumbers")], ["number", "12", 1, 40, True])
+        self.assertNotIn("increment", number)
+        self.page.call("dialogs.answer", id=number["id"], number=7)
+        text = self.page.wait("dialog", lambda data: "opened" in data)["opened"]
+        self.assertEqual((text["kind"], text["initial"], "minimum" in text), ("text", "B-1", False))
+        self.page.call("panel.cycle", cycle="once")
+        self.addCleanup(self.page.call, "panel.cycle", cycle="forever")
+        self.page.call("dialogs.answer", id=text["id"], text="B-2")
+        self.eventually(lambda: not self.panel()["running"])
 
     def test_display(self):
         self.page.call("run.pointerToLine", {**MAIN, "line": line_of("helper count")})

@@ -19,6 +19,36 @@ CAB_TASK_MODULES:
       -File "HOME:/lib/Back.modx" -ModName "Back" -Task "T_BACK"
 """
 
+SYS_OF_TWO = """SYS:CFG_1.0:7:0::
+#
+CAB_TASKS:
+
+      -Name "T_ROB1" -Type "NORMAL" -MotionTask
+
+      -Name "T_AUX" -Type "NORMAL"
+#
+CAB_TASK_MODULES:
+
+      -File "HOME:/A.mod" -ModName "A" -Task "T_ROB1"
+
+      -File "HOME:/B.mod" -ModName "B" -Task "T_AUX"
+"""
+MODULE_OF_TWO = """MODULE {0}
+  PERS num n{0} := 0;
+  PROC main()
+    n{0} := n{0} + 1;
+    WaitTime 0.1;
+    n{0} := n{0} + 10;
+    WaitTime 0.1;
+  ENDPROC
+  PROC other()
+    n{0} := 100;
+    WaitTime 0.2;
+    n{0} := 200;
+  ENDPROC
+ENDMODULE
+"""
+
 class Platform(ServeCase):
     OPTIONS = ("--no-program-start",)
 
@@ -163,6 +193,46 @@ class Kept(ServeCase):
 
     def inputs(self):
         return os.path.join(self.folder, "inputs")
+
+    def test_two_normal_tasks(self):
+        """Facts 2.3, pcp: each task has a pointer of its own; a step is one of every active NORMAL task, and ends when all have made it."""
+        tasks = {"T_ROB1": "A", "T_AUX": "B"}
+        os.makedirs(f"{self.home}", exist_ok=True)
+        for name, text in (("SYS.cfg", SYS_OF_TWO), *((f"HOME/{m}.mod", MODULE_OF_TWO.format(m)) for m in tasks.values())):
+            path = os.path.join(self.inputs(), "two", name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        server = Serve(os.path.join(self.inputs(), "two"), options=("--no-program-start", "--motors-on"))
+        self.addCleanup(server.stop)
+        client = server.client(2)
+        order = lambda path, **fields: self.assertEqual(client.post(path, fields).status, 204)  # noqa: E731
+
+        def state():
+            pointers = [client.get(f"/rw/rapid/tasks/{task}/pcp").values("pcp-info")["beginposition"] for task in tasks]
+            values = [client.get(f"/rw/rapid/symbol/RAPID/{task}/{m}/n{m}/data").values()["value"] for task, m in tasks.items()]
+            return [int(each.split(",")[0]) for each in pointers], values
+
+        def step():
+            order("/rw/rapid/execution/start", regain="continue", execmode="stepover", cycle="forever", condition="none", stopatbp="enabled",
+                  alltaskbytsp="false")
+            self.eventually(lambda: client.get("/rw/rapid/execution").values()["ctrlexecstate"] == "stopped")
+
+        order("/rw/mastership/edit/request")
+        order("/rw/rapid/tasks/T_AUX/pcp/routine", module="B", routine="other", userlevel="FALSE")
+        self.assertEqual(state(), ([4, 10], ["0", "0"]))
+        order("/rw/rapid/tasks/T_ROB1/pcp/cursor", **{"module": "A", "begin-position-row": "6", "begin-position-col": "5"})
+        self.assertEqual(state()[0], [6, 10])
+        step()
+        self.assertEqual(state(), ([7, 11], ["10", "100"]))
+        step()  # WaitTime 0.1 and 0.2: the shorter one does not end the longer one
+        self.assertEqual(state()[0][1], 12)
+        order("/rw/rapid/tasks/deactivate", task="T_AUX")
+        before = state()
+        step()
+        self.assertEqual((state()[0][1], state()[1][1]), (before[0][1], before[1][1]))
+        self.assertNotEqual(state()[0][0], before[0][0])
+        client.close()
 
     def test_certificate(self):
         def certificate(server, _):

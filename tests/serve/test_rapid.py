@@ -364,6 +364,19 @@ class Modules(RapidCase):
             self.eventually(lambda: sorted(self.names(client)) == ["M", "Sys"])
             self.assertEqual(client.get(program).values()["name"], "Shop")
 
+    def test_routine_of_a_place(self):
+        """RWS 1.0 documentation, Get Routine information: rap-routine-prop with name, symtyp, named, local, npar."""
+        client = self.client(1)
+        rows = MODULE.split("\n")
+        path = "/rw/rapid/modules/M/routine?task=T_ROB1&column=1&row="
+        for text, name in (("count := inner", "main"), ("PROC part()", "part"), ("WaitTime", "part")):
+            row = 1 + next(i for i, line in enumerate(rows) if text in line)
+            values = client.get(path + str(row)).values("rap-routine-prop")
+            self.assertEqual([values[key] for key in ("name", "symtyp", "named", "local", "npar")], [name, "prc", "true", "false", "0"])
+        outside = 1 + next(i for i, line in enumerate(rows) if "PERS num count" in line)
+        self.assertEqual((client.get(path + str(outside)).status, client.get(path + "0").status), (404, 400))
+        self.assertEqual(client.get(path + "8&resource=routine-args").status, 404)
+
 
 class LargeModule(RapidCase):
     """controller.md 2.3: module-text, or file-path when the module is large; the client reads that file, then deletes it."""

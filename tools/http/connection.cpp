@@ -77,7 +77,12 @@ class Connection final : public Channel, public std::enable_shared_from_this<Con
 
     void received(std::size_t size) {
         if (phase_ == Phase::Waiting && !std::exchange(hasHeaderTime_, true)) allow(hub_->limits.headerTime);
-        if (phase_ == Phase::Reading) allow(hub_->limits.progressTime);
+        if (phase_ == Phase::Reading) {
+            allow(hub_->limits.progressTime);
+            bodyBytes_ += size;
+            const auto slowest = std::chrono::seconds(bodyBytes_ / hub_->limits.bodyRate);
+            if (Clock::now() - bodySince_ > hub_->limits.progressTime + slowest) return end();
+        }
         parser_.feed(std::string_view(bytes_.data(), size));
         step();
     }
@@ -104,6 +109,8 @@ class Connection final : public Channel, public std::enable_shared_from_this<Con
     void decide() {
         phase_ = Phase::Reading;
         allow(hub_->limits.progressTime);
+        bodySince_ = Clock::now();
+        bodyBytes_ = 0;
         static_cast<Head&>(request_) = parser_.takeHead();
         request_.connection = peer_.connection;
         request_.peer = peer_.address;
@@ -263,7 +270,8 @@ class Connection final : public Channel, public std::enable_shared_from_this<Con
     const Peer peer_;
     RequestParser parser_;
     Phase phase_ = Phase::Waiting;
-    Clock::time_point deadline_, waitsSince_;
+    Clock::time_point deadline_, waitsSince_, bodySince_;
+    std::size_t bodyBytes_ = 0; ///< received since bodySince_
     bool hasHeaderTime_ = false, isHead_ = false, keepsAlive_ = true;
     Request request_;
     std::optional<Response> answer_;

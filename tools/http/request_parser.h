@@ -27,7 +27,8 @@ struct Limits {
     std::chrono::seconds headerTime{20};            ///< for a whole header, and for the TLS handshake
     std::chrono::seconds idleTime{300};             ///< between two requests
     std::chrono::seconds progressTime{
-        30}; ///< without a single byte while a body is read or a response written
+        30};                     ///< without a single byte while a body is read or a response written
+    std::size_t bodyRate = 1024; ///< bytes a second of a body, on average after the first progressTime
     std::chrono::seconds answerTime{120}; ///< for the service
     std::chrono::seconds pingTime{20};    ///< between pings of WebSockets
 };

@@ -27,10 +27,23 @@ const char* kindOf(const rt::Dialog& dialog) {
 
 Json describe(const Open& open) {
     const rt::Dialog& dialog = *open.dialog;
-    return {{"id", open.number},      {"task", open.task->name()}, {"instruction", dialog.instruction},
-            {"kind", kindOf(dialog)}, {"header", dialog.header},   {"lines", dialog.lines},
-            {"icon", dialog.icon},    {"image", dialog.image},     {"choices", dialog.choices},
-            {"items", dialog.items},  {"hint", dialog.hint},       {"initial", ""}};
+    Json described = {{"id", open.number},
+                      {"task", open.task->name()},
+                      {"instruction", dialog.instruction},
+                      {"kind", kindOf(dialog)},
+                      {"header", dialog.header},
+                      {"lines", dialog.lines},
+                      {"icon", dialog.icon},
+                      {"image", dialog.image},
+                      {"choices", dialog.choices},
+                      {"items", dialog.items},
+                      {"hint", dialog.hint},
+                      {"initial", dialog.initial},
+                      {"wholeNumbers", dialog.isWhole}};
+    if (dialog.least) described["minimum"] = *dialog.least;
+    if (dialog.most) described["maximum"] = *dialog.most;
+    if (dialog.increment) described["increment"] = *dialog.increment;
+    return described;
 }
 
 /// UIMsgWrite: a message that stays while the program continues; its id is 0.

@@ -198,6 +198,26 @@ Reply Configuration::remove(const Request& request) {
     return replyTo(store_.remove(domain, type, name));
 }
 
+/// RWS 2.0: an instance of the store is valid, because changes that are not are refused; so each must only be there.
+Reply Configuration::validateInstances(const Request& request) const {
+    const std::string domain = ConfigurationStore::domainNamed(request.form.text("cfgdomain"));
+    const std::string type = request.form.text("cfgtype");
+    if (domain.empty() || !store_.isType(domain, type))
+        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no type {} in domain {}", type,
+                                                               request.form.text("cfgdomain")));
+    std::size_t given = 0;
+    for (const auto& [field, name] : request.form.all()) {
+        if (!sameName(field, "instances")) continue;
+        ++given;
+        if (!store_.find(domain, type, name))
+            return Reply::refuse(ReturnCode::NotFound, fmt::format("{} has no instance {}", type, name));
+    }
+    const auto count = countIn(request.form.text("instancescount"));
+    if (given == 0 || (count && *count != given))
+        return badParameter("instancescount", "the number of instances that follow");
+    return Reply::done();
+}
+
 Reply Configuration::load(const Request& request, bool tryOnly) {
     const std::string path = fieldOf(request, "filepath"), action = fieldOf(request, "action-type");
     ConfigurationStore::Load mode = ConfigurationStore::Load::AddOrReplace;
@@ -288,6 +308,8 @@ void Configuration::addTo(Router& router, Subscribables& subscribables) {
     router.addBoth({Method::Delete, one, {}, remove});
     addOrder(router, all, "load", "load", guarded([this](const Request& r) { return load(r, false); }));
     addOrder(router, all, "validate", "validate", [this](const Request& r) { return load(r, true); });
+    router.post(Dialect::V2, all + "/validate-instances",
+                [this](const Request& r) { return validateInstances(r); });
     addOrder(router, domain, "saveas", "saveas", [this](const Request& r) { return save(r); });
     addOrder(router, domain, "save", "save", [this](const Request& r) { return save(r); });
 }

@@ -30,6 +30,7 @@ class Configuration {
     Reply set(const Request& request);
     Reply create(const Request& request);
     Reply remove(const Request& request);
+    Reply validateInstances(const Request& request) const;
     Reply load(const Request& request, bool tryOnly);
     Reply save(const Request& request) const;
     std::optional<Failure> typeIn(const Request& request, std::string& domain) const;

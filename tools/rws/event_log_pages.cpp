@@ -84,22 +84,35 @@ class LogWatch final : public Watch {
 
 } // namespace
 
+void EventLogPages::describeDomain(const EventDomain& domain, Entry& entry) const {
+    entry.self = fmt::format("/rw/elog/{}", domain.number);
+    entry.value("domain-name", domain.name);
+    entry.value("numevts", fmt::format("{}", journal_.messages(domain.number).size()));
+    entry.value("buffsize", fmt::format("{}", service::EventJournal::kKept));
+}
+
 Reply EventLogPages::domains(const Request&) const {
     Document document;
     document.place = Document::Place::Resources;
-    for (const EventDomain& domain : service::eventDomains()) {
-        Entry& entry = document.add("elog-domain-li", fmt::format("{}", domain.number));
-        entry.self = fmt::format("/rw/elog/{}", domain.number);
-        entry.value("domain-name", domain.name);
-        entry.value("numevts", fmt::format("{}", journal_.messages(domain.number).size()));
-        entry.value("buffsize", fmt::format("{}", service::EventJournal::kKept));
-    }
+    for (const EventDomain& domain : service::eventDomains())
+        describeDomain(domain, document.add("elog-domain-li", fmt::format("{}", domain.number)));
+    return Reply::of(std::move(document));
+}
+
+/// ?resource=info: how many messages a domain has, and can have.
+Reply EventLogPages::domain(int number) const {
+    Document document;
+    document.place = Document::Place::Resources;
+    for (const EventDomain& domain : service::eventDomains())
+        if (domain.number == number)
+            describeDomain(domain, document.add("elog-domain", fmt::format("{}", number)));
     return Reply::of(std::move(document));
 }
 
 Reply EventLogPages::list(const Request& request) const {
     const auto domain = domainIn(request);
     if (!domain) return noDomain(request);
+    if (sameName(request.query.text("resource"), "info")) return this->domain(*domain);
     const std::string order = request.query.text("order"), after = request.query.text("elogseqnum");
     if (!order.empty() && !sameName(order, "lifo") && !sameName(order, "fifo"))
         return Reply::refuse(ReturnCode::BadParameter, "order is lifo or fifo");
@@ -111,17 +124,21 @@ Reply EventLogPages::list(const Request& request) const {
             ++skipped;
     const std::size_t total = all.size() - skipped;
     ListPage page;
-    if (const auto failure = readListPage(request, total, kMostOnPage, page,
-                                          request.dialect == Dialect::V2 && robotWare_ >= 8))
+    const bool countsPages = request.dialect == Dialect::V2;
+    if (const auto failure = readListPage(request, total, kMostOnPage, page, countsPages))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
+    if (const std::size_t size = page.end - page.begin; countsPages && !page.next.empty())
+        document.links.emplace_back(
+            "last", fmt::format("/rw/elog/{}?start={}&limit={}", *domain, (total + size - 1) / size, size));
     for (std::size_t i = page.begin; i < page.end; ++i) {
         const EventMessage& message = *all[newestFirst ? all.size() - 1 - i : skipped + i];
         Entry& entry =
             document.add("elog-message-li", fmt::format("/rw/elog/{}/{}", *domain, message.number));
-        entry.self = entry.title;
+        // The App SDK reads the number between the slashes: relative to the folder of the log.
+        entry.self = countsPages ? fmt::format("{}/{}", *domain, message.number) : entry.title;
         describe(message, entry);
     }
     return Reply::of(std::move(document));
@@ -137,7 +154,7 @@ Reply EventLogPages::one(const Request& request) const {
         return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no message {} in domain {}",
                                                                request.parameter("number"), *domain));
     Document document;
-    document.place = Document::Place::Resources;
+    if (!byNumberAlone) document.place = Document::Place::Resources;
     Entry& entry = document.add("elog-message", fmt::format("/rw/elog/{}/{}", *domain, message->number));
     entry.self = entry.title;
     describe(*message, entry);

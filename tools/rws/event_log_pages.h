@@ -11,15 +11,15 @@ namespace rapidc::rws {
 
 class EventLogPages {
   public:
-    /// All of them must outlive the routes and all subscriptions.
-    /// `robotWare`: 6, 7 or 8; in RWS 2.0 of RobotWare 8 `start` is the number of a page, from 1.
-    EventLogPages(service::EventJournal& journal, const service::FileVolumes& volumes, Progress& progress,
-                  int robotWare)
-        : journal_(journal), volumes_(volumes), progress_(progress), robotWare_(robotWare) {}
+    /// All of them must outlive the routes and all subscriptions. In RWS 2.0 `start` is the number of a page, from 1.
+    EventLogPages(service::EventJournal& journal, const service::FileVolumes& volumes, Progress& progress)
+        : journal_(journal), volumes_(volumes), progress_(progress) {}
     void addTo(Router& router, Subscribables& subscribables);
 
   private:
     Reply domains(const Request& request) const;
+    void describeDomain(const service::EventDomain& domain, Entry& entry) const;
+    Reply domain(int number) const;
     Reply list(const Request& request) const;
     Reply one(const Request& request) const;
     Reply clear(const Request& request);
@@ -29,7 +29,6 @@ class EventLogPages {
     service::EventJournal& journal_;
     const service::FileVolumes& volumes_;
     Progress& progress_;
-    const int robotWare_;
 };
 
 } // namespace rapidc::rws

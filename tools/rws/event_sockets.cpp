@@ -59,10 +59,13 @@ void Subscriptions::Outlet::opened(std::shared_ptr<http::WebSocket> opened) {
     waiting.clear();
 }
 
-void Subscriptions::Outlet::end(http::CloseCode code, const std::string& reason) {
+void Subscriptions::Outlet::stop() {
     hasEnded = true;
     waiting.clear();
-    if (socket) socket->close(code, reason);
+}
+
+void Subscriptions::Outlet::close() {
+    if (socket) socket->close(http::CloseCode::Normal, "the subscription has ended");
     socket.reset();
 }
 
@@ -121,6 +124,8 @@ std::optional<http::Upgrade> Subscriptions::upgrade(const http::Head& head, cons
 
 void Subscriptions::tick() {
     const auto now = std::chrono::steady_clock::now();
+    for (; !ending_.empty() && ending_.front().first <= now; ending_.pop_front())
+        ending_.front().second->close();
     for (int priority = 0; priority < 2; ++priority) {
         if (now - sent_[priority] < kPeriods[priority]) continue;
         sent_[priority] = now;

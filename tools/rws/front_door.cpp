@@ -141,6 +141,8 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
     }
     if (head.asksForSocket() || asksForMethods) return std::nullopt;
     visit.form = acceptedForm(head.header("accept"), visit.path);
+    if (visit.form == Form::Xhtml && asksForNewestMessages(visit.path, visit.query))
+        visit.form = Form::TypedXhtml;
     // The App SDK leaves it to the browser for requests that change something.
     if (!visit.form && head.method != "GET" && head.method != "HEAD" &&
         acceptsAnything(head.header("accept")))

@@ -71,7 +71,8 @@ Reply IoUnits::network(const Request& request) const {
     if (name.empty()) return Reply::refuse(noNetwork(request));
     Document document;
     document.place = Document::Place::Resources;
-    describeNetwork(name, document.add("ios-network", name));
+    describeNetwork(name,
+                    document.add(request.dialect == Dialect::V1 ? "ios-network" : "ios-network-li", name));
     return Reply::of(std::move(document));
 }
 
@@ -132,7 +133,8 @@ Reply IoUnits::device(const Request& request) const {
     if (name.empty()) return Reply::refuse(noDevice(request));
     Document document;
     document.place = Document::Place::Resources;
-    describeDevice(name, document.add("ios-device", devices().networkOf(name) + "/" + name));
+    describeDevice(name, document.add(request.dialect == Dialect::V1 ? "ios-device" : "ios-device-li",
+                                      devices().networkOf(name) + "/" + name));
     return Reply::of(std::move(document));
 }
 

@@ -117,6 +117,32 @@ std::optional<std::string> withInitialValue(const std::string& text, std::string
     return std::nullopt;
 }
 
+std::optional<RoutineOfRow> routineOfRow(const std::string& text, std::string_view module, std::size_t row) {
+    using rapid::syntax::RoutineKind;
+    rapid::diag::Sink ignored;
+    const auto tree =
+        rapid::syntax::parse(std::make_shared<const rapid::SourceFile>("text.modx", text), ignored);
+    const rapid::syntax::ModuleDecl* header = headerOf(*tree, module);
+    if (header == nullptr) return std::nullopt;
+    const std::string_view whole = tree->source->text();
+    const auto rowAt = [&](std::size_t offset) {
+        return 1 + static_cast<std::size_t>(
+                       std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
+    };
+    for (const rapid::syntax::Decl* decl : header->decls) {
+        if (decl->kind != rapid::syntax::NodeKind::Routine) continue;
+        const auto& routine = rapid::syntax::as<rapid::syntax::RoutineDecl>(*decl);
+        const rapid::SourceRange range = tree->range(routine);
+        if (row < rowAt(range.begin) || row > rowAt(range.end)) continue;
+        const char* type = routine.routineKind == RoutineKind::Func   ? "fun"
+                           : routine.routineKind == RoutineKind::Trap ? "trp"
+                                                                      : "prc";
+        return RoutineOfRow{std::string(tree->text(routine.name)), type, routine.local,
+                            routine.params.size()};
+    }
+    return std::nullopt;
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text, std::string_view wanted,
                                                           std::size_t most) {
     std::vector<std::pair<std::size_t, std::size_t>> places;

@@ -36,6 +36,15 @@ std::vector<std::pair<std::size_t, std::size_t>> placesOf(std::string_view text,
 /// Rows, and characters of the longest one.
 std::pair<std::size_t, std::size_t> sizeOf(std::string_view text);
 
+struct RoutineOfRow {
+    std::string name;
+    std::string_view symbolType; ///< "prc", "fun" or "trp"
+    bool isLocal = false;
+    std::size_t parameters = 0;
+};
+/// The routine that a row (from 1) belongs to. None: it lies outside all of them.
+std::optional<RoutineOfRow> routineOfRow(const std::string& text, std::string_view module, std::size_t row);
+
 /// Attributes in parentheses after the name of the module: "SYSMODULE,NOSTEPIN"; "" = nothing.
 std::string attributesOf(std::string_view text, std::string_view module);
 bool isSystemModule(std::string_view text, std::string_view module);

@@ -76,6 +76,7 @@ void Modules::addTo(Router& router) {
     router.get(Dialect::V2, kNewList, [this](const Request& request) { return list(request); });
     router.get(Dialect::V1, kOld, with(&Modules::showOld));
     router.get(Dialect::V2, kNew, with(&Modules::show));
+    router.get(Dialect::V1, std::string(kOld) + "/routine", with(&Modules::routine));
     const auto get = [&](const char* name, Method method) {
         router.get(Dialect::V2, std::string(kNew) + "/" + name, with(method));
     };
@@ -147,6 +148,25 @@ Reply Modules::showOld(const Request& request, const Asked& asked) {
         return badParameter("resource", "module-text, change-count, module-extension or search");
     if (request.query.has("text")) return search(request, asked);
     return request.query.has("startrow") ? range(request, asked) : show(request, asked);
+}
+
+/// The routine that a place of the text belongs to.
+Reply Modules::routine(const Request& request, const Asked& asked) {
+    if (!request.query.text("resource").empty())
+        return Reply::refuse(ReturnCode::NotSupported,
+                             "arguments of calls are not described: only routines are", 404);
+    const auto row = countIn(request.query.text("row"));
+    if (!row || *row == 0) return badParameter("row", "a number from 1");
+    const auto found = routineOfRow(asked.text, asked.module->name, *row);
+    if (!found) return Reply::refuse(ReturnCode::NotFound, fmt::format("row {} is not in a routine", *row));
+    Document document;
+    document.add("rap-routine-prop", found->name)
+        .value("name", found->name)
+        .value("symtyp", std::string(found->symbolType))
+        .value("named", "true")
+        .value("local", found->isLocal ? "true" : "false")
+        .value("npar", fmt::format("{}", found->parameters));
+    return Reply::of(std::move(document));
 }
 
 Reply Modules::show(const Request&, const Asked& asked) {

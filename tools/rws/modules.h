@@ -36,6 +36,7 @@ class Modules {
     Reply keepValues(const Request& request, const Asked& asked);
     Reply range(const Request& request, const Asked& asked);
     Reply search(const Request& request, const Asked& asked);
+    Reply routine(const Request& request, const Asked& asked);
     Reply changeCount(const Request& request, const Asked& asked);
     Reply extension(const Request& request, const Asked& asked);
     Reply setText(const Request& request, const Asked& asked);

@@ -33,6 +33,13 @@ bool acceptsAnything(std::string_view accept) {
     return http::trimBlanks(accept) == "*/*";
 }
 
+bool asksForNewestMessages(std::string_view path,
+                           const std::vector<std::pair<std::string, std::string>>& query) {
+    return isBelow(path, "/rw/elog") && std::any_of(query.begin(), query.end(), [](const auto& field) {
+               return rapid::config::sameName(field.first, "order") && field.second == "lifo";
+           });
+}
+
 std::optional<Form> acceptedForm(std::string_view accept, std::string_view path) {
     while (!accept.empty()) {
         const std::size_t comma = std::min(accept.find(','), accept.size());
@@ -42,8 +49,9 @@ std::optional<Form> acceptedForm(std::string_view accept, std::string_view path)
         if (parameterOf(one, "q") == "0") continue;
         if (type == "application/hal+json" && version == "2.0") return Form::Json;
         const bool isLogOf21 = version == "2.1" && isBelow(path, "/rw/elog"); // as XHTML in both forms
-        if (type == "application/hal+json" && isLogOf21) return Form::Xhtml;
-        if (type == "application/xhtml+xml" && (version == "2.0" || isLogOf21)) return Form::Xhtml;
+        if (type == "application/hal+json" && isLogOf21) return Form::TypedXhtml;
+        if (type == "application/xhtml+xml" && isLogOf21) return Form::TypedXhtml;
+        if (type == "application/xhtml+xml" && version == "2.0") return Form::Xhtml;
     }
     return std::nullopt;
 }

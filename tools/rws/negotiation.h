@@ -8,6 +8,9 @@
 
 namespace rapidc::rws {
 
+/// Whether a request is for the event log with order=lifo: its XHTML has the types of arguments (decision 128).
+bool asksForNewestMessages(std::string_view path,
+                           const std::vector<std::pair<std::string, std::string>>& query);
 /// RWS 2.0: the first form of the header Accept that this server has. `path`: v=2.1 counts for the event log only. None: 406.
 std::optional<Form> acceptedForm(std::string_view accept, std::string_view path);
 /// True for what browsers send when a page does not say what it accepts.

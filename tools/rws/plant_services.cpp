@@ -21,9 +21,8 @@ PlantServices::PlantServices(service::VirtualController& controller, const Acces
       progress_(controller.observers()), signals_(controller), ioUnits_(controller),
       mechanicalUnits_(controller, manual_, access), kinematics_(manual_),
       configurationPages_(controller, configuration_, volumes_, progress_, access),
-      eventLog_(journal_, volumes_, progress_, controller.settings().robotWare),
-      system_(controller, volumes_), platform_(controller), files_(volumes_),
-      backups_(controller, configuration_, volumes_, progress_) {
+      eventLog_(journal_, volumes_, progress_), system_(controller, volumes_), platform_(controller),
+      files_(volumes_), backups_(controller, configuration_, volumes_, progress_) {
     for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"})
         if (const std::string folder = controller.folderOf(volume); !folder.empty())
             (void)volumes_.add(volume, folder);

@@ -201,6 +201,11 @@ void Platform::addNetwork(Router& router) {
     };
     router.post(Dialect::V2, "/ctrl/lang", language);
     router.action("/ctrl", "set-lang", language);
+    // no published client shows what these look like
+    router.get(Dialect::V1, "/rw/rapid/tasks/{task}/execution", unsupported());
+    router.get(Dialect::V1, "/ctrl/backup/info", unsupported());
+    router.getBoth("/users/remoteuser", unsupported());
+    router.postBoth("/users/remoteuser", unsupported());
     for (const char* path : {"compatible", "compatibility", "compatibility/{version}", "syslog", "env",
                              "system", "systems", "compress", "clock/timeserver"})
         router.getBoth(std::string("/ctrl/") + path, unsupported());

@@ -36,18 +36,30 @@ std::string anchor(std::string_view href, std::string_view rel) {
     return fmt::format(R"(<a href="{}" rel="{}"></a>)", xmlAttribute(href), xmlAttribute(rel));
 }
 
-std::string listItem(const Entry& entry) {
+/// ` type="long"` of the argument with that name, "" when nothing is known of it: JSON has the types in nested entries.
+std::string typeAttribute(const Entry& entry, std::string_view name) {
+    for (const Entry& nested : entry.nested) {
+        if (nested.title != name) continue;
+        for (const auto& [member, value] : nested.values)
+            if (member == "type") return fmt::format(R"( type="{}")", xmlAttribute(value));
+    }
+    return {};
+}
+
+std::string listItem(const Entry& entry, bool isTyped = false) {
     std::string text =
         fmt::format(R"(<li class="{}" title="{}">)", xmlAttribute(entry.type), xmlAttribute(entry.title));
     if (!entry.self.empty()) text += anchor(entry.self, "self");
     for (const auto& [rel, href] : entry.links)
         text += anchor(href, rel);
     for (const auto& [name, value] : entry.values)
-        text += fmt::format(R"(<span class="{}">{}</span>)", xmlAttribute(name), xmlText(value));
+        text += fmt::format(R"(<span class="{}"{}>{}</span>)", xmlAttribute(name),
+                            isTyped && entry.isNestedOnlyInJson ? typeAttribute(entry, name) : std::string(),
+                            xmlText(value));
     if (!entry.nestedName.empty() && !entry.isNestedOnlyInJson) {
         text += "<ul>";
         for (const Entry& nested : entry.nested)
-            text += listItem(nested);
+            text += listItem(nested, isTyped);
         text += "</ul>";
     }
     return text + "</li>";
@@ -104,7 +116,7 @@ std::string baseFolder(std::string_view path) {
         return path.substr(0, root.size()) == root &&
                (path.size() == root.size() || path[root.size()] == '/');
     };
-    for (const std::string_view root : {"/rw/mastership", "/users", "/uas"})
+    for (const std::string_view root : {"/rw/mastership", "/rw/elog", "/users", "/uas"})
         if (isIn(root)) return std::string(root) + "/";
     if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
     return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
@@ -119,7 +131,7 @@ std::string nextPage(const Document& document, const RenderContext& context) {
     return document.next.starts_with('?') ? context.path + document.next : document.next;
 }
 
-std::string renderXhtml(const Document& document, const RenderContext& context) {
+std::string renderXhtml(const Document& document, const RenderContext& context, bool isTyped) {
     std::string body = R"(<div class="state">)";
     body += anchor(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self,
                    "self");
@@ -128,7 +140,7 @@ std::string renderXhtml(const Document& document, const RenderContext& context) 
     if (const std::string next = nextPage(document, context); !next.empty()) body += anchor(next, "next");
     body += "<ul>";
     for (const Entry& entry : document.entries)
-        body += listItem(entry);
+        body += listItem(entry, isTyped);
     return page(context.base + baseFolder(context.path), body + "</ul></div>");
 }
 

@@ -9,7 +9,11 @@
 
 namespace rapidc::rws {
 
-enum class Form : uint8_t { Xhtml, Json };
+enum class Form : uint8_t {
+    Xhtml,
+    TypedXhtml, ///< spans of the arguments of messages have the attribute "type" (decision 128)
+    Json,
+};
 
 /// Parts of the request that rendering needs: dialect, base, path.
 struct RenderContext {
@@ -22,8 +26,8 @@ struct RenderContext {
 std::string render(const Document& document, Form form, const RenderContext& context);
 /// The body of an error.
 std::string renderFailure(const Failure& failure, Form form, const RenderContext& context);
-/// The same in one form.
-std::string renderXhtml(const Document& document, const RenderContext& context);
+/// The same in one form; `isTyped`: as Form::TypedXhtml.
+std::string renderXhtml(const Document& document, const RenderContext& context, bool isTyped = false);
 std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context);
 /// The address of the next page, "" when there is none. A query alone is for the same path; other relative addresses stay, because some
 /// clients put the folder of the base in front of them.

@@ -82,7 +82,8 @@ std::string renderJsonFailure(const Failure& failure, const RenderContext& conte
 } // namespace
 
 std::string render(const Document& document, Form form, const RenderContext& context) {
-    return form == Form::Json ? renderJson(document, context) : renderXhtml(document, context);
+    return form == Form::Json ? renderJson(document, context)
+                              : renderXhtml(document, context, form == Form::TypedXhtml);
 }
 
 std::string renderFailure(const Failure& failure, Form form, const RenderContext& context) {

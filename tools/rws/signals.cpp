@@ -103,18 +103,25 @@ Reply Signals::listAll(const Request& request) const {
     return list(request, all);
 }
 
-Reply Signals::one(const Request& request) const {
-    rt::SignalId signal = -1;
-    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
-    Document document;
-    document.place = Document::Place::Resources;
+void Signals::describeWhole(rt::SignalId signal, Entry& entry) const {
     const rt::SignalConfig& config = io().config(signal);
-    Entry& entry = describe(io(), signal, document.add("ios-signal", signalTitle(io(), signal)));
+    describe(io(), signal, entry);
     entry.value("unitnm", config.device);
     entry.value("pvalue", shown(io().value(signal)));
     entry.value("phstate",
                 io().access(rt::IoSystem::handleOf(signal)) == rt::IoResult::Ok ? "valid" : "not valid");
     entry.value("label", config.label).value("access-level", config.access);
+}
+
+Reply Signals::one(const Request& request) const {
+    rt::SignalId signal = -1;
+    if (const auto failure = find(request, signal)) return Reply::refuse(*failure);
+    Document document;
+    document.place = Document::Place::Resources;
+    describeWhole(signal, document.add("ios-signal", signalTitle(io(), signal)));
+    // Clients of RWS 2.0 look for one of two classes (decision 129).
+    if (request.dialect == Dialect::V2)
+        describeWhole(signal, document.add("ios-signal-li", signalTitle(io(), signal)));
     return Reply::of(std::move(document));
 }
 

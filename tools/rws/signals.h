@@ -24,6 +24,7 @@ class Signals {
     std::optional<Failure> find(const Request& request, rt::SignalId& signal) const;
     Reply list(const Request& request, const std::vector<rt::SignalId>& signals) const;
     Reply listAll(const Request& request) const;
+    void describeWhole(rt::SignalId signal, Entry& entry) const;
     Reply one(const Request& request) const;
     Reply configuration(const Request& request) const;
     /// RWS 1.0 `set`: mode=simulated and mode=value too. RWS 2.0 `set-value`.

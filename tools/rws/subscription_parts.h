@@ -7,6 +7,10 @@
 
 namespace rapidc::rws {
 
+/// From the end of a group to the close of its socket. A client that takes a close for its own wish, and deletes a group to have the
+/// socket cut, gets the reply first.
+constexpr std::chrono::milliseconds kUntilClosed{150};
+
 /// A resource that a client requested to subscribe to, as it wrote it.
 struct Subscriptions::Requested {
     std::string text;
@@ -30,7 +34,9 @@ struct Subscriptions::Outlet {
 
     void deliver(uint64_t topic, const std::shared_ptr<const std::string>& text);
     void opened(std::shared_ptr<http::WebSocket> opened);
-    void end(http::CloseCode code, const std::string& reason);
+    /// Nothing is delivered from now on.
+    void stop();
+    void close();
 };
 
 /// One subscribed text in one dialect, for all clients that subscribed to it.

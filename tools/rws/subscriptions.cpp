@@ -351,8 +351,10 @@ void Subscriptions::removeGroup(uint64_t id) {
         const std::lock_guard lock(mutex_);
         outlets_.erase(id);
     }
-    postToNetwork_(
-        [outlet = group->outlet] { outlet->end(http::CloseCode::Normal, "the subscription has ended"); });
+    postToNetwork_([this, outlet = group->outlet] {
+        outlet->stop();
+        ending_.emplace_back(std::chrono::steady_clock::now() + kUntilClosed, outlet);
+    });
 }
 
 void Subscriptions::sessionEnded(uint64_t session) {

@@ -85,6 +85,8 @@ class Subscriptions final : public SocketGate {
     void deliver(const Event& event, const Outlets& outlets);
     void dropLater(uint64_t group);
 
+    /// Groups that have ended, with the time when their sockets are closed; network thread.
+    std::deque<std::pair<std::chrono::steady_clock::time_point, std::shared_ptr<Outlet>>> ending_;
     const Subscribables& subscribables_;
     const Post post_, postToNetwork_;
     std::function<void(uint64_t, int)> socketsChanged_ = [](uint64_t, int) {};

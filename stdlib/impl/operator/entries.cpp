@@ -89,6 +89,11 @@ Status enterNumber(TaskCore* task, const char* instruction, Number* result, cons
     if (const Status status = lib::fillText(task, text, dialog)) return status;
     Number present = wanted.initial ? *wanted.initial : Number(0);
     dialog.hint = hintFor(wanted, present);
+    if (wanted.initial) dialog.initial = textOf(*wanted.initial);
+    if (wanted.least) dialog.least = *wanted.least;
+    if (wanted.most) dialog.most = *wanted.most;
+    if (wanted.increment) dialog.increment = *wanted.increment;
+    dialog.isWhole = wanted.integer;
     const auto accept = [&](const std::string& answer) {
         if (answer.empty() && wanted.initial) return Reply::yes();
         if (tune(wanted, answer, present)) {
@@ -173,6 +178,7 @@ Status rt_UIAlphaEntry(TaskCore* task, String* result, const String* Header, con
             lib::fillText(task, {Header, Message, MsgArray, MsgArrayDim1, Wrap, Icon, nullptr}, dialog))
         return status;
     const std::string initial(InitString ? InitString->view() : std::string_view());
+    dialog.initial = initial;
     if (!initial.empty()) dialog.hint = "Enter alone takes \"" + initial + "\"; \"\" is an empty text";
     std::string text;
     const auto accept = [&](const std::string& answer) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 using rapid::config::removeLeftovers;
+using rapid::config::removeLeftoversBelow;
 using rapid::config::removeLeftoversBeside;
 
 namespace fs = std::filesystem;
@@ -66,4 +67,29 @@ TEST_CASE("what a killed process leaves is removed, files of other programs stay
     const auto before = entries(folder.path).size();
     removeLeftoversBeside({(folder.path / "x.mod").string(), (folder.path / "y.mod").string()});
     CHECK(entries(folder.path).size() == before - 2);
+}
+
+TEST_CASE("leftovers are removed in all folders below, as far as it is allowed to look", "[edit][crash]") {
+    const TemporaryFolder folder;
+    const auto inner = folder.path / "a" / "b";
+    REQUIRE(std::filesystem::create_directories(inner));
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        rapid::config::TemporaryFile top, deep;
+        rapid::config::TemporaryFolder half;
+        if (top.make(folder.path, "x.mod") != 0 || deep.make(inner, "y.mod") != 0 ||
+            half.makeBeside(inner, "backup") != 0)
+            ::_exit(1);
+        ::kill(::getpid(), SIGKILL);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(entries(inner).size() == 2);
+    removeLeftoversBelow(folder.path, 1); // the folder itself
+    CHECK(entries(folder.path) == std::vector<std::string>{"a"});
+    CHECK(entries(inner).size() == 2);
+    removeLeftoversBelow(folder.path, 100);
+    CHECK(entries(inner).empty());
+    removeLeftoversBelow(folder.path / "none", 100);
 }

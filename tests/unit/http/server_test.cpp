@@ -159,6 +159,25 @@ TEST_CASE("All bodies together are bounded", "[http]") {
     CHECK(second.read("x\n").find("HTTP/1.1 200") == 0);
 }
 
+TEST_CASE("A body that comes drop by drop ends the connection, a slow one that keeps the rate does not",
+          "[http]") {
+    Limits limits;
+    limits.progressTime = std::chrono::seconds(1);
+    limits.bodyRate = 100;
+    Running running(limits);
+    const auto send = [&](std::size_t bytes) {
+        Client client(running.port);
+        client.send("POST /body HTTP/1.1\r\nHost: a\r\nContent-Length: 400\r\n\r\n");
+        for (std::size_t sent = 0; sent < 400 && sent / bytes < 16; sent += bytes) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            client.send(std::string(bytes, 'x'));
+        }
+        return client.read(bytes > 1 ? "x\n" : "");
+    };
+    CHECK(send(1).empty()); // 10 bytes a second
+    CHECK(send(25).find("HTTP/1.1 200") == 0);
+}
+
 TEST_CASE("When there are too many connections, the one that waits longest makes room", "[http]") {
     Limits limits;
     limits.connections = 3;

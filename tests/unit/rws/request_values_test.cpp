@@ -18,7 +18,8 @@ TEST_CASE("exponents whose plus sign a form has lost", "[rws]") {
 
 TEST_CASE("forms that clients of RWS 2.0 accept (serve-contract 18)", "[rws]") {
     CHECK(acceptedForm("application/hal+json;v=2.0", "/rw/panel") == Form::Json);
-    CHECK(acceptedForm("application/hal+json;v=2.1", "/rw/elog/0") == Form::Xhtml); // lifo, answered as XHTML
+    CHECK(acceptedForm("application/hal+json;v=2.1", "/rw/elog/0") ==
+          Form::TypedXhtml); // lifo, answered as XHTML
     CHECK_FALSE(acceptedForm("application/hal+json;v=2.1", "/rw/panel"));
     CHECK_FALSE(acceptedForm("*/*", "/rw/panel"));
     CHECK(acceptsAnything(" */* "));

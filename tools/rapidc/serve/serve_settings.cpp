@@ -58,23 +58,6 @@ std::string readPassword(ServeSettings& settings) {
 /// Folders of a volume that are searched before the controller starts.
 constexpr std::size_t kMostFolders = 20'000;
 
-/// Removes uploads, copies and backups that a killed process left incomplete in a volume.
-void removeRests(const std::string& volume) {
-    if (volume.empty()) return;
-    rapid::config::removeLeftovers(volume);
-    std::error_code error;
-    auto folder =
-        fs::recursive_directory_iterator(volume, fs::directory_options::skip_permission_denied, error);
-    std::size_t looked = 0;
-    for (; !error && folder != fs::recursive_directory_iterator() && looked < kMostFolders;
-         folder.increment(error)) {
-        std::error_code ignored;
-        if (!folder->is_directory(ignored) || folder->is_symlink(ignored)) continue;
-        rapid::config::removeLeftovers(folder->path());
-        ++looked;
-    }
-}
-
 } // namespace
 
 void addServeOptions(const rt::Command& command, ServeSettings& settings) {
@@ -154,9 +137,10 @@ std::string complete(ServeSettings& settings,
     std::string error;
     findStimulus(options, inputs.paths);
     if (!readStimulus(options, error)) return error;
+    // Uploads, copies and backups that a killed process left incomplete.
     for (const std::string& volume :
          {options.home, settings.backupFolder, settings.tempFolder, settings.systemFolder})
-        removeRests(volume);
+        if (!volume.empty()) rapid::config::removeLeftoversBelow(volume, kMostFolders);
     // Volumes outlive the controller, which a restart replaces.
     const auto use = [&](const char* volume, const std::string& given) -> std::string {
         std::string path = given;

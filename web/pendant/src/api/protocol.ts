@@ -116,6 +116,8 @@ export interface Dialog {
     initial: string;
     minimum?: number;
     maximum?: number;
+    /** Of the keys + and - (UINumTune). */
+    increment?: number;
     wholeNumbers?: boolean;
 }
 

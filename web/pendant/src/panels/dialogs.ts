@@ -3,7 +3,16 @@ import type { Dialog } from "../api/protocol";
 import { button } from "../ui/controls";
 import { h, replaceChildren, uniqueId } from "../ui/dom";
 import { icon, type IconName } from "../ui/icons";
-import { attempt, notice } from "../ui/notices";
+import { attempt } from "../ui/notices";
+
+/** "1 to 40, whole numbers", "" when every number is taken. */
+function limitsOf({ minimum, maximum, wholeNumbers }: Dialog): string {
+    const least = minimum !== undefined && Math.abs(minimum) < 1e30 ? minimum : undefined;
+    const most = maximum !== undefined && Math.abs(maximum) < 1e30 ? maximum : undefined;
+    const range = least !== undefined && most !== undefined ? `${least} to ${most}` : least !== undefined ? `From ${least}` : most !== undefined ? `Up to ${most}` : "";
+    if (!wholeNumbers) return range;
+    return range ? `${range}, whole numbers` : "Whole numbers";
+}
 
 const icons: Record<string, IconName> = { warning: "events", error: "events", question: "display" };
 
@@ -71,7 +80,7 @@ export class DialogLayer {
             attrs: {
                 type: numeric ? "number" : "text",
                 inputmode: numeric ? "decimal" : "text",
-                step: numeric ? (dialog.wholeNumbers ? 1 : "any") : undefined,
+                step: numeric ? (dialog.wholeNumbers ? 1 : (dialog.increment ?? "any")) : undefined,
                 min: dialog.minimum,
                 max: dialog.maximum,
                 maxlength: numeric ? undefined : 80,
@@ -79,17 +88,25 @@ export class DialogLayer {
             },
         });
         input.value = dialog.initial;
+        const problem = h("p", { class: "dialog-problem", attrs: { role: "alert", hidden: true } });
+        input.addEventListener("input", () => (problem.hidden = true));
         const send = (): void => {
-            if (numeric && (input.value === "" || !input.checkValidity())) {
-                notice("warning", input.validationMessage || "Enter a number");
+            const { valueMissing, badInput, rangeUnderflow, rangeOverflow } = input.validity;
+            const wrong = numeric && (input.value === "" || valueMissing || badInput) ? "Enter a number." : rangeUnderflow ? `The smallest value is ${dialog.minimum}.` : rangeOverflow ? `The largest value is ${dialog.maximum}.` : "";
+            const isPart = numeric && dialog.wholeNumbers && !Number.isInteger(Number(input.value));
+            if (wrong || isPart) {
+                problem.textContent = wrong || "A whole number is expected.";
+                problem.hidden = false;
+                input.focus();
                 return;
             }
             this.answer(dialog, numeric ? { number: Number(input.value) } : { text: input.value });
         };
         input.addEventListener("keydown", (event) => event.key === "Enter" && send());
-        const limits = numeric && dialog.minimum !== undefined && dialog.maximum !== undefined && Math.abs(dialog.maximum) < 1e30;
-        body.append(input);
-        if (limits) body.append(h("p", { class: "muted", text: `${dialog.minimum} to ${dialog.maximum}${dialog.wholeNumbers ? ", whole numbers" : ""}` }));
+        body.append(input, problem);
+        const limits = numeric ? limitsOf(dialog) : "";
+        if (limits) body.append(h("p", { class: "muted", text: limits }));
+        queueMicrotask(() => input.select());
         buttons.append(button({ label: "OK", class: "primary", onClick: send }));
     }
 

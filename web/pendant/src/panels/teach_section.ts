@@ -11,18 +11,19 @@ export class TeachSection {
     readonly element: HTMLElement;
     private readonly kind: Segmented<Kind>;
     private readonly targets = select("Target", () => {});
+    private readonly teach: HTMLButtonElement;
     private readonly value = h("code", { class: "teach-value" });
 
     constructor(private readonly model: Model, private readonly unit: () => Unit | undefined) {
         const kinds = [{ value: "robtarget" as const, label: "robtarget" }, { value: "jointtarget" as const, label: "jointtarget" }];
         this.kind = new Segmented<Kind>("Kind of target", kinds, "robtarget", () => this.refresh());
         const copy = button({ icon: "file", label: "Copy position", onClick: () => attempt(() => this.copy()) });
-        const teach = button({ icon: "target", label: "Modify target", class: "primary", onClick: () => attempt(() => this.write()) });
+        this.teach = button({ icon: "target", label: "Modify target", class: "primary", onClick: () => attempt(() => this.write()) });
         this.element = h(
             "section",
             { class: "teach" },
             h("h3", { class: "side-title", text: "Teaching" }),
-            h("div", { class: "teach-row" }, field("Kind", this.kind.element), field("Target", this.targets), copy, teach),
+            h("div", { class: "teach-row" }, field("Kind", this.kind.element), field("Target", this.targets), copy, this.teach),
             this.value,
         );
     }
@@ -36,7 +37,10 @@ export class TeachSection {
         if (!task) return;
         const { data } = await this.model.connection.request<{ data: DataItem[] }>("data.list", { task, type: this.kind.value });
         const writable = data.filter(({ readOnly, dims }) => !readOnly && dims.length === 0);
-        setOptions(this.targets, writable.map(({ path, name, module }) => ({ value: path, label: `${name}  ${module}` })));
+        const options = writable.map(({ path, name, module }) => ({ value: path, label: `${name}  ${module}` }));
+        setOptions(this.targets, options.length > 0 ? options : [{ value: "", label: "None that can be changed" }]);
+        this.targets.disabled = this.teach.disabled = options.length === 0;
+        this.teach.title = options.length === 0 ? "ModPos in the program changes constants" : "";
     }
 
     private async read(): Promise<string> {

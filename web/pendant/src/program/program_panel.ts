@@ -238,13 +238,20 @@ export class ProgramPanel {
         }
     }
 
-    /** One line per mistake; those with a line number lead there. */
+    /** A button per mistake, with the lines that explain it; it leads to the place. */
     private showMistakes(text: string): void {
-        const entries = text.split("\n").filter(Boolean).map((line) => {
-            const at = /(?:^|[:\s(])(\d+)(?::\d+)?[:),]/.exec(line);
-            const go = (): void => this.code.select(Number(at?.[1] ?? 1));
-            return h("button", { class: "mistake", text: line, attrs: { type: "button" }, on: { click: go } });
-        });
+        const place = /^(?:.*\/)?([^/:\s]+):(\d+):\d+: /;
+        const found: { line: number; text: string }[] = [];
+        for (const line of text.split("\n").filter(Boolean)) {
+            const at = place.exec(line);
+            const last = found[found.length - 1];
+            if (at) found.push({ line: Number(at[2]), text: line.replace(/^.*\/(?=[^/:\s]+:\d+:\d+: )/, "") });
+            else if (last) last.text += `\n${line}`;
+        }
+        if (found.length === 0) found.push({ line: 1, text });
+        const entries = found.map((each) =>
+            h("button", { class: "mistake", text: each.text, attrs: { type: "button" }, on: { click: () => this.code.select(each.line) } }),
+        );
         replaceChildren(this.mistakes, h("strong", { text: "Nothing was changed: the text has mistakes" }), ...entries);
         this.mistakes.hidden = false;
     }

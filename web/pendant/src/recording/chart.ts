@@ -92,7 +92,7 @@ export class Chart {
         pen.lineWidth = 1;
         pen.textBaseline = "middle";
         pen.textAlign = "right";
-        for (const value of ticks(least, most, Math.max(2, Math.floor(height / 34)))) {
+        for (const value of ticks(least, most, Math.max(3, Math.floor(height / 34)))) {
             line(pen, padding.left, Math.round(y(value)) + 0.5, width - padding.right, Math.round(y(value)) + 0.5);
             pen.fillText(short(value), padding.left - 6, y(value));
         }
