@@ -7,11 +7,11 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9;      // mm
-constexpr double kLongestStretch = 10; // mm
-constexpr double kLeastRadius = 0.3;   // mm, a zone that is programmed as 0 but not as a stop point (z0)
-constexpr int kStretchesInZone = 9;    // odd: the sharpest bend lies inside one
-constexpr double kLargestJump = 2;     // deg, between what two neighbouring stretches expect of an axis
+constexpr double kNothing = 1e-9;     // mm
+constexpr double kLongestStretch = 5; // mm
+constexpr double kLeastRadius = 0.3;  // mm, a zone that is programmed as 0 but not as a stop point (z0)
+constexpr int kStretchesInZone = 15;  // odd: the sharpest bend lies inside one
+constexpr double kLargestJump = 2;    // deg, between what two neighbouring stretches expect of an axis
 
 /// Zone radii in mm of route on one of the legs that meet.
 struct Radii {
