@@ -78,10 +78,10 @@ Typed Expressions::literal(const NumLiteralExpr& e, const DataType* want, ConstV
 }
 
 // Literals that ended up as num although they do not fit it.
-void Expressions::checkBigLiterals() {
-    for (const Expr* e : bigLiterals_)
+void Expressions::checkBigLiterals(size_t first) {
+    for (const Expr* e : std::span(bigLiterals_).subspan(first))
         if (info(*e).type().type->kind == TypeKind::Num) report(say::NumberBeyondNum, range(*e), {text(*e)});
-    bigLiterals_.clear();
+    bigLiterals_.resize(first);
 }
 
 // Data as a value: signals are read, handles have no value.

@@ -24,8 +24,10 @@ class Expressions : CheckerPart {
     bool fits(const syntax::Expr& e, Typed t, const DataType& want);
     /// `what`: the instruction, for the message. False: reported.
     bool condition(const syntax::Expr& e, const char* what);
-    /// Judges the literals that a num cannot hold, once their types are settled.
-    void checkBigLiterals();
+    /// Judges the literals that a num cannot hold, once their types are settled: all but the `first` ones, which belong to a routine
+    /// in progress when data of another file is evaluated for it.
+    void checkBigLiterals(size_t first = 0);
+    size_t bigLiterals() const { return bigLiterals_.size(); }
 
   private:
     Typed literal(const syntax::NumLiteralExpr& e, const DataType* want, ConstValue* slot);

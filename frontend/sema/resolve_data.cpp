@@ -22,6 +22,11 @@ namespace {
 bool isPlain(const Expr& e) {
     return e.kind == NodeKind::Aggregate && as<AggregateExpr>(e).isPlain();
 }
+
+/// Its initial value is a constant; that of a VAR in a routine is calculated at each call.
+bool mustFold(const DataSymbol& symbol) {
+    return !symbol.routine || symbol.dataKind != DataKind::Var;
+}
 } // namespace
 
 DataResolver::DataResolver(State& state, const Parts& parts)
@@ -48,7 +53,9 @@ void DataResolver::ensureData(DataSymbol& symbol) {
     const auto& decl = as<DataDecl>(*symbol.decl);
     const bool outerMuted = reports_.mute(decl.broken);
     const Type* type = types_.resolveType(decl.type, &decl);
+    const size_t outerLiterals = expressions_.bigLiterals();
     const uint64_t elements = resolveDimensions(symbol, decl);
+    expressions_.checkBigLiterals(outerLiterals);
     // Without its dimensions, or when its line ends in the middle, nothing is said about what is done with it.
     const bool unclear = elements == 0 || (decl.broken && !decl.init);
     symbol.type.type = unclear ? program_.errorType : type;
@@ -144,7 +151,9 @@ void DataResolver::ensureValue(DataSymbol& symbol) {
         const Context saved = context_;
         if (!symbol.routine) state_.enterModule(symbol.module);
         const bool outerMuted = reports_.mute(decl.broken);
+        const size_t outerLiterals = expressions_.bigLiterals();
         initialise(symbol, decl);
+        if (mustFold(symbol)) expressions_.checkBigLiterals(outerLiterals);
         reports_.mute(outerMuted);
         context_ = saved;
     }
@@ -154,11 +163,11 @@ void DataResolver::ensureValue(DataSymbol& symbol) {
 
 void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
     const Expr& init = *decl.init;
-    const bool mustFold = !symbol.routine || symbol.dataKind != DataKind::Var;
+    const bool folds = mustFold(symbol);
     const bool usable = isValueType(*symbol.type.type);
-    context_.constant = mustFold;
+    context_.constant = folds;
     const DataType& want = symbol.type;
-    ConstValue* slot = mustFold ? &symbol.valueSlot() : nullptr;
+    ConstValue* slot = folds ? &symbol.valueSlot() : nullptr;
     if (usable && isPlain(init) && isLiteralOf(want, *context_.tree, as<AggregateExpr>(init))) {
         symbol.setLiteral();
         if (symbol.users > 0 && !state_.options.onlyDiagnostics)
@@ -185,12 +194,11 @@ void DataResolver::initialise(DataSymbol& symbol, const DataDecl& decl) {
         remedies_.offer(report(say::InitialValueType, range(init), {names[0], names[1], symbol.name},
                                {Misfit::Type, init}),
                         init, remedy);
-    } else if (mustFold && !t.info->constant && !t.isError() && !cycle) {
+    } else if (folds && !t.info->constant && !t.isError() && !cycle) {
         reportNonConstant(init);
     }
-    if (mustFold && t.info->constant && t.info->constant != slot) *slot = folding_.owned(*t.info->constant);
-    if (mustFold && !t.info->constant) *slot = ConstValue{};
-    if (mustFold) expressions_.checkBigLiterals();
+    if (folds && t.info->constant && t.info->constant != slot) *slot = folding_.owned(*t.info->constant);
+    if (folds && !t.info->constant) *slot = ConstValue{};
 }
 
 // Names the first part that keeps `expr` from being constant, if that was not reported at its declaration.

@@ -338,3 +338,33 @@ TEST_CASE("a call with parentheses is one message, about what is called", "[sema
     CHECK(checked->codes() == std::vector<std::string>{"RAP2023", "RAP2026", "RAP2021", "RAP2023", "RAP1110",
                                                        "RAP1110", "RAP4011", "RAP2003", "RAP1110"});
 }
+
+// Manual 1.3.1: the range of num. An unknown name is looked for in all files, and what they compare it with is evaluated.
+TEST_CASE("a number beyond num is reported once, in its own file, when constants of others are evaluated in between",
+          "[sema]") {
+    const auto checked = testing::checkTexts({"MODULE one\n"
+                                              "  PROC first()\n"
+                                              "    TPWrite \"\" \\Num:=5e40;\n"
+                                              "    TPWrite \"\" \\Num:=unknown;\n"
+                                              "  ENDPROC\n"
+                                              "ENDMODULE\n",
+                                              "MODULE two\n"
+                                              "  CONST num slots := 2;\n"
+                                              "  VAR num wide{slots};\n"
+                                              "ENDMODULE\n",
+                                              "MODULE three\n"
+                                              "  PROC third(num count)\n"
+                                              "    IF other = slots RETURN;\n"
+                                              "    IF other = wide{1} RETURN;\n"
+                                              "  ENDPROC\n"
+                                              "ENDMODULE\n"});
+    size_t found = 0;
+    for (const diag::Diagnostic& d : checked->sink.sorted()) {
+        if (diag::codeName(d.code) != "RAP3036") continue;
+        ++found;
+        CHECK(d.message == "number 5e40 is out of range for num: use dnum");
+        REQUIRE(d.file);
+        CHECK(d.file->text().substr(d.range.begin, d.range.end - d.range.begin) == "5e40");
+    }
+    CHECK(found == 1);
+}
