@@ -141,7 +141,7 @@ bool Companions::append(std::vector<Leg> legs, const Route& leader, double fixed
 
 double Companions::largestSlope(std::size_t member, const Route& leader, double from, double to) const {
     const int looks =
-        std::clamp(static_cast<int>(to - from), 6, 60); // about one a mm: it changes fast in a corner
+        std::clamp(static_cast<int>(2 * (to - from)), 12, 120); // two a mm: it changes fast in a corner
     double largest = 0;
     for (int k = 0; k <= looks; ++k)
         largest = std::max(largest, placeOf(member, leader, from + (to - from) * k / looks).slope);

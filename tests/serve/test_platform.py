@@ -113,6 +113,9 @@ class Platform(ServeCase):
                 response = client.get(path)
                 self.assertEqual((response.status, response.code()), (404, -1073445885), path)
             self.assertEqual(client.get("/ctrl/diagnostics").status, 400)
+            for path in ("/users/remoteuser",) + (("/rw/rapid/tasks/T_ROB1/execution", "/ctrl/backup/info") if client.dialect == 1 else ()):
+                response = client.get(path)
+                self.assertEqual((response.status, response.code()), (404, -1073445885), path)
         client = self.client(2)
         self.assertEqual(client.post("/ctrl/system/info", {"path": "x", "file-type": "y"}).status, 403)
         self.assertEqual(client.get("/uas/ldap/configuration").status, 403)

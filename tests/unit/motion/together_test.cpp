@@ -135,7 +135,7 @@ TEST_CASE("fly-by points of synchronised movements are passed together", "[motio
         CHECK(std::llabs(reached - timeOf(events[1], MotionEventKind::Reached, move)) <= 1);
     }
     for (std::size_t r = 0; r < 2; ++r) {
-        CHECK(fastest[r] <= limits[r] * 1.002); // shares are looked at every mm
+        CHECK(fastest[r] <= limits[r] * 1.002); // shares are looked at twice a mm
         CHECK(slowest[r] > 5);                  // no stop on the way
         CHECK(largestJump[r] < 1);              // deg in a ms
     }
