@@ -147,13 +147,7 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 void removeLeftovers(const fs::path& folder) {
-    std::error_code error;
-    std::vector<fs::path> found;
-    for (fs::directory_iterator it(folder.empty() ? fs::path(".") : folder, error), end; !error && it != end;
-         it.increment(error))
-        if (isOurs(it->path().filename().native())) found.push_back(it->path());
-    for (const fs::path& path : found)
-        removeIfAbandoned(path);
+    removeLeftoversBelow(folder.empty() ? fs::path(".") : folder, 1);
 }
 
 void removeLeftoversBelow(const fs::path& folder, std::size_t most) {

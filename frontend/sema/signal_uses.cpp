@@ -136,20 +136,21 @@ bool SignalFinder::isMisspeltNumber(NameId name) {
 void SignalFinder::gatherOfTask() {
     task_.signalUses.known = true;
     const Context saved = context_;
-    std::shared_ptr<FileSignalUses> file;
-    FileFacts* reading = nullptr; // the facts of the modules of one tree, which lie together
+    const FileFacts* current = nullptr; // the modules of a file follow each other
+    bool isRead = false;
     for (Module* module : task_.task->modules) {
-        if (module->facts != reading) {
-            reading = nullptr;
-            if (!module->facts->signalUses) {
-                reading = module->facts;
-                reading->signalUses = file = std::make_shared<FileSignalUses>();
+        FileFacts& facts = *module->facts;
+        if (&facts != current) {
+            current = &facts;
+            isRead = facts.signalUses == nullptr;
+            if (isRead) {
+                auto uses = std::make_shared<FileSignalUses>();
+                file_ = uses.get();
+                facts.signalUses = std::move(uses);
             }
-            task_.signalUses.files.push_back(module->facts->signalUses);
+            task_.signalUses.files.push_back(facts.signalUses);
         }
-        if (!reading) continue;
-        file_ = file.get();
-        gatherOfModule(*module);
+        if (isRead) gatherOfModule(*module);
     }
     context_ = saved;
     mergeFiles();

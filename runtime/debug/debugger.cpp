@@ -179,7 +179,7 @@ Status Debugger::standStill(Task& task, StopReason reason) {
     noteStop(task, reason);
     task.setStepwise(true);
     task.stop(StopCause::Step);
-    // Steps of several tasks that were ordered together end by themselves; a client is to see everything stand still.
+    // Without a client, each task completes the step that it makes together with others; a client expects all tasks to stop.
     const auto steps = [&](const auto& other) {
         const Mode mode = stateOf(*other).mode;
         return other.get() != &task && other->kind() == TaskKind::Normal && other->isExecuting() &&

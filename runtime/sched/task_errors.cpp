@@ -33,10 +33,10 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
-/// The error handler of the frame's routine is in progress.
+/// The error handler that took an error in this frame is in progress. Unlike inErrorHandler, this holds for every statement that
+/// the handler does not cover, whatever its kind.
 bool isInHandlerOf(const Frame& frame) {
-    const StmtDesc* statement = statementOf(frame);
-    return statement != nullptr && statement->handled == 0;
+    return statementOf(frame) != nullptr && !coversStatement(frame);
 }
 
 /// The same for a record that may have been left.

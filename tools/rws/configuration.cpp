@@ -66,14 +66,17 @@ Reply Configuration::types(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
-std::optional<Failure> Configuration::typeIn(const Request& request, std::string& domain) const {
-    domain = ConfigurationStore::domainNamed(request.parameter("domain"));
+std::optional<Failure> Configuration::typeNamed(const std::string& written, const std::string& type,
+                                                std::string& domain) const {
+    domain = ConfigurationStore::domainNamed(written);
     if (domain.empty())
-        return Failure{ReturnCode::NotFound,
-                       fmt::format("there is no configuration domain {}", request.parameter("domain")), 0};
-    if (store_.isType(domain, request.parameter("type"))) return std::nullopt;
-    return Failure{ReturnCode::NotFound,
-                   fmt::format("domain {} has no type {}", domain, request.parameter("type")), 0};
+        return Failure{ReturnCode::NotFound, fmt::format("there is no configuration domain {}", written), 0};
+    if (store_.isType(domain, type)) return std::nullopt;
+    return Failure{ReturnCode::NotFound, fmt::format("domain {} has no type {}", domain, type), 0};
+}
+
+std::optional<Failure> Configuration::typeIn(const Request& request, std::string& domain) const {
+    return typeNamed(request.parameter("domain"), request.parameter("type"), domain);
 }
 
 Reply Configuration::type(const Request& request) const {
@@ -200,11 +203,10 @@ Reply Configuration::remove(const Request& request) {
 
 /// RWS 2.0: an instance of the store is valid, because changes that are not are refused; so each must only be there.
 Reply Configuration::validateInstances(const Request& request) const {
-    const std::string domain = ConfigurationStore::domainNamed(request.form.text("cfgdomain"));
+    std::string domain;
     const std::string type = request.form.text("cfgtype");
-    if (domain.empty() || !store_.isType(domain, type))
-        return Reply::refuse(ReturnCode::NotFound, fmt::format("there is no type {} in domain {}", type,
-                                                               request.form.text("cfgdomain")));
+    if (const auto failure = typeNamed(request.form.text("cfgdomain"), type, domain))
+        return Reply::refuse(*failure);
     std::size_t given = 0;
     for (const auto& [field, name] : request.form.all()) {
         if (!sameName(field, "instances")) continue;

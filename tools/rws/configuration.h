@@ -33,6 +33,9 @@ class Configuration {
     Reply validateInstances(const Request& request) const;
     Reply load(const Request& request, bool tryOnly);
     Reply save(const Request& request) const;
+    /// `domain` as the store writes it; a failure when it, or a type of it, does not exist.
+    std::optional<Failure> typeNamed(const std::string& written, const std::string& type,
+                                     std::string& domain) const;
     std::optional<Failure> typeIn(const Request& request, std::string& domain) const;
 
     service::VirtualController& controller_;

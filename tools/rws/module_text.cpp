@@ -134,9 +134,9 @@ std::optional<RoutineOfRow> routineOfRow(const std::string& text, std::string_vi
         const auto& routine = rapid::syntax::as<rapid::syntax::RoutineDecl>(*decl);
         const rapid::SourceRange range = tree->range(routine);
         if (row < rowAt(range.begin) || row > rowAt(range.end)) continue;
-        const char* type = routine.routineKind == RoutineKind::Func   ? "fun"
-                           : routine.routineKind == RoutineKind::Trap ? "trp"
-                                                                      : "prc";
+        const auto type = routine.routineKind == RoutineKind::Func   ? service::SymbolType::Function
+                          : routine.routineKind == RoutineKind::Trap ? service::SymbolType::Trap
+                                                                     : service::SymbolType::Procedure;
         return RoutineOfRow{std::string(tree->text(routine.name)), type, routine.local,
                             routine.params.size()};
     }

@@ -1,6 +1,8 @@
 #pragma once
 // Texts of modules: parts of them by rows and columns, attributes, saving with the present values of persistents.
 
+#include "tools/service/symbols.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,7 +40,7 @@ std::pair<std::size_t, std::size_t> sizeOf(std::string_view text);
 
 struct RoutineOfRow {
     std::string name;
-    std::string_view symbolType; ///< "prc", "fun" or "trp"
+    service::SymbolType type = service::SymbolType::Procedure;
     bool isLocal = false;
     std::size_t parameters = 0;
 };

@@ -7,6 +7,7 @@
 #include "tools/rws/mod_pos.h"
 #include "tools/rws/module_text.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/symbol_text.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -162,7 +163,7 @@ Reply Modules::routine(const Request& request, const Asked& asked) {
     Document document;
     document.add("rap-routine-prop", found->name)
         .value("name", found->name)
-        .value("symtyp", std::string(found->symbolType))
+        .value("symtyp", std::string(symtypOf(found->type)))
         .value("named", "true")
         .value("local", found->isLocal ? "true" : "false")
         .value("npar", fmt::format("{}", found->parameters));

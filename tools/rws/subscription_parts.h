@@ -7,8 +7,7 @@
 
 namespace rapidc::rws {
 
-/// From the end of a group to the close of its socket. A client that takes a close for its own wish, and deletes a group to have the
-/// socket cut, gets the reply first.
+/// From the end of a group to the close of its socket: a client that deletes a group to close the socket gets the reply first.
 constexpr std::chrono::milliseconds kUntilClosed{150};
 
 /// A resource that a client requested to subscribe to, as it wrote it.

@@ -114,6 +114,10 @@ bool readTypes(const Fields& form, SymbolQuery& query, std::string& problem) {
 
 } // namespace
 
+std::string_view symtypOf(SymbolType type) {
+    return textOf(type).symtyp;
+}
+
 Entry symbolEntry(const SymbolInfo& symbol, Dialect dialect, const char* suffix) {
     const TypeText& text = textOf(symbol.type);
     Entry entry;
