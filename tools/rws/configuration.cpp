@@ -70,7 +70,8 @@ std::optional<Failure> Configuration::typeNamed(const std::string& written, cons
                                                 std::string& domain) const {
     domain = ConfigurationStore::domainNamed(written);
     if (domain.empty())
-        return Failure{ReturnCode::NotFound, fmt::format("there is no configuration domain {}", written), 0};
+        return Failure{ReturnCode::NotFound, fmt::format("configuration domain {} does not exist", written),
+                       0};
     if (store_.isType(domain, type)) return std::nullopt;
     return Failure{ReturnCode::NotFound, fmt::format("domain {} has no type {}", domain, type), 0};
 }
