@@ -38,6 +38,7 @@ void resetSettings(Task& task) {
     if (!task.isMotionTask()) return;
     restoreDefaults(task);
     MotionDriver& motion = task.controller().motion(task);
+    motion.setProgramOverride(100);
     endSpeedOutputs(task);
     endStopSupervision(task);
     endTemporaryZones(task);
