@@ -81,9 +81,17 @@ void MotionDriver::setOverride(double percent) {
 }
 
 void MotionDriver::setProgramOverride(double percent) {
-    system().setProgramOverride(percent);
+    std::vector<MotionDriver*> drivers{this};
+    if (const auto group = synchronised()) { // they have one speed
+        drivers.clear();
+        for (const SynchronisedGroup::Member& member : group->members())
+            drivers.push_back(member.driver);
+    }
+    for (MotionDriver* driver : drivers)
+        driver->system().setProgramOverride(percent);
     refresh();
-    tell(ArmChange::Override);
+    for (MotionDriver* driver : drivers)
+        driver->tell(ArmChange::Override);
 }
 
 void MotionDriver::refreshAlone() {
