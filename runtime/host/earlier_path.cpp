@@ -11,7 +11,7 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     const motion::MotionSystem& arm = system();
     EarlierPath path;
     for (const StoredLevel& level : levels_)
-        path.stored.push_back({{}, {}, level.left, level.stopMove, level.wasSuspended});
+        path.stored.push_back({{}, {}, level.left, level.stopMove, level.wasSuspended, level.place});
     bool first = true;
     for (const UnfinishedMove& move : ordered_) {
         if (arm.isDone(move.id)) continue;
@@ -36,9 +36,7 @@ MotionDriver::EarlierPath MotionDriver::remainingPath() {
     return path;
 }
 
-/// Robots that move together order the rest of their paths from where they are.
 std::optional<MotionDriver::EarlierPlace> MotionDriver::placeLeft() {
-    if (synchronised_ != nullptr) return {};
     const auto place = system().placeUnderWay();
     if (!place) return {};
     for (const UnfinishedMove& move : ordered_) {
@@ -67,10 +65,14 @@ void MotionDriver::storeEarlier(const EarlierLevel& level) {
     system_.stop();
     earlier_ = {};
     earlier_.begun = level.begun;
-    orderEarlier(level.moves);
+    earlier_.place = level.place;
+    EarlierPath path;
+    path.moves = level.moves;
+    path.place = level.place;
+    orderEarlier(orderEarlierUnderWay(path));
     system_.storePath();
     system_.placeAt(here);
-    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended});
+    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended, level.place});
 }
 
 void MotionDriver::continuePath(const EarlierPath& path) {
@@ -119,14 +121,22 @@ std::optional<motion::MoveId> MotionDriver::orderUnderWay(motion::MoveCommand& c
         beginning = {startOf(command), system_.plannedEnd()};
         return {};
     }
-    earlier_.begun.reset();
-    if (before) {
-        ++instructions_;
-        const motion::Pose start = system_.toRobTarget(place->from, before->frames).pose;
-        enqueued(ordered->before, *before, start, ordered->start, nullptr);
-    }
-    beginning = {system_.toRobTarget(ordered->start, command.frames).pose, ordered->start};
+    beginning = takeUnderWay(*place, *ordered, command);
     return ordered->move;
+}
+
+/// The arm is on its way again, on `command` or in the zone before it. The result: the beginning of `command`.
+MotionDriver::Beginning MotionDriver::takeUnderWay(const EarlierPlace& place,
+                                                   const motion::MotionSystem::OrderedUnderWay& ordered,
+                                                   const motion::MoveCommand& command) {
+    earlier_.begun.reset();
+    if (place.before) {
+        motion::MoveCommand before = *place.before;
+        before.tag = ++instructions_;
+        const motion::Pose start = system_.toRobTarget(place.from, before.frames).pose;
+        enqueued(ordered.before, before, start, ordered.start, nullptr);
+    }
+    return {system_.toRobTarget(ordered.start, command.frames).pose, ordered.start};
 }
 
 void MotionDriver::holdEarlier(const EarlierPath& path) {

@@ -37,7 +37,52 @@ template <class Orders> Idents commonIdents(const std::vector<Orders>& all) {
     return common;
 }
 
+using Places = std::vector<MotionDriver::EarlierPlace>;
+
+/// All of them are on a movement, or all in the zone between two.
+bool areAlike(const Places& places, std::size_t robots) {
+    return places.size() == robots && std::all_of(places.begin(), places.end(), [&](const auto& place) {
+               return place.before.has_value() == places.front().before.has_value();
+           });
+}
+
 } // namespace
+
+std::optional<std::vector<motion::MoveId>>
+MotionDriver::continueUnderWay(const SynchronisedGroup& group, std::vector<motion::MoveCommand>& commands,
+                               std::vector<Beginning>& beginnings) {
+    const auto& members = group.members();
+    Places places;
+    for (const SynchronisedGroup::Member& member : members)
+        if (auto place = std::exchange(member.driver->earlier_.place, {})) places.push_back(*place);
+    if (places.empty()) return {};
+    const auto systems = group.systems();
+    std::optional<std::vector<motion::MotionSystem::OrderedUnderWay>> ordered;
+    if (areAlike(places, members.size())) {
+        std::vector<motion::MotionSystem::UnderWay> orders;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            const uint64_t latest = members[i].driver->instructions_;
+            if (places[i].before) places[i].before->tag = latest + 1;
+            commands[i].tag = latest + (places[i].before ? 2 : 1);
+            orders.push_back({places[i].from, places[i].before, commands[i]});
+        }
+        ordered = motion::MotionSystem::enqueueTogetherUnderWay(systems, orders, places.front().covered);
+    }
+    std::vector<motion::MoveId> ids;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        MotionDriver& driver = *members[i].driver;
+        if (ordered) {
+            beginnings[i] = driver.takeUnderWay(places[i], (*ordered)[i], commands[i]);
+            ids.push_back((*ordered)[i].move);
+            continue;
+        }
+        driver.continueEarlier(commands[i]); // from where the arm is
+        commands[i].tag = driver.instructions_ + 1;
+        beginnings[i] = {driver.startOf(commands[i]), driver.system_.plannedEnd()};
+    }
+    if (!ordered) return {};
+    return ids;
+}
 
 /// Movements that all robots have ordered begin now. At one that some robot orders again (its instruction waited for it), the
 /// others' orders wait for that.
@@ -51,9 +96,11 @@ void MotionDriver::orderEarlierTogether(SynchronisedGroup& group, const std::vec
             if (common.count(move.ident) != 0) moves.push_back(move);
         complete = std::min(complete, moves.size());
     }
+    const std::size_t first = orderTogetherUnderWay(group, orders, left, complete);
     const auto systems = group.systems();
-    const bool areTogether = complete > 0 && motion::MotionSystem::beginTogether(systems);
-    for (std::size_t k = 0; k < complete && areTogether; ++k) {
+    const bool areTogether = first < complete && (motion::MotionSystem::areTogether(systems) ||
+                                                  motion::MotionSystem::beginTogether(systems));
+    for (std::size_t k = first; k < complete && areTogether; ++k) {
         std::vector<motion::MoveCommand> commands;
         std::vector<Beginning> beginnings;
         for (std::size_t i = 0; i < orders.size(); ++i) {
@@ -67,11 +114,36 @@ void MotionDriver::orderEarlierTogether(SynchronisedGroup& group, const std::vec
             orders[i].driver->noteOrdered(nullptr, commands[i], (*ids)[i], beginnings[i]);
     }
     for (std::size_t i = 0; i < orders.size(); ++i) {
-        for (std::size_t k = complete; k < left[i].size(); ++k) {
+        for (std::size_t k = std::max(first, complete); k < left[i].size(); ++k) {
             orders[i].driver->continueEarlier(left[i][k]);
             group.expect(*orders[i].driver, left[i][k]);
         }
     }
+}
+
+/// Orders the movement that the arms have covered a part of; of a zone both movements. The number of movements that are taken over
+/// by that: all of these robots have them. The first one that a robot orders again waits for that.
+std::size_t MotionDriver::orderTogetherUnderWay(SynchronisedGroup& group,
+                                                const std::vector<EarlierOrders>& orders,
+                                                std::vector<std::vector<motion::MoveCommand>>& left,
+                                                std::size_t complete) {
+    const auto& place = orders.front().driver->earlier_.place;
+    if (!place) return 0;
+    const auto& moves = left.front();
+    const bool hasBefore = place->before && !moves.empty() && moves.front().ident == place->before->ident;
+    const std::size_t number = hasBefore ? 1 : 0;
+    if (complete <= number) return number;
+    std::vector<motion::MoveCommand> commands;
+    std::vector<Beginning> beginnings;
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        beginnings.push_back(orders[i].driver->beginOrder(nullptr, left[i][number]));
+        commands.push_back(left[i][number]);
+    }
+    const auto ids = continueUnderWay(group, commands, beginnings);
+    if (!ids) return 0;
+    for (std::size_t i = 0; i < orders.size(); ++i)
+        orders[i].driver->noteOrdered(nullptr, commands[i], (*ids)[i], beginnings[i]);
+    return number + 1;
 }
 
 void MotionDriver::continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths) {
@@ -97,6 +169,7 @@ void MotionDriver::continueTogether(SynchronisedGroup& group, std::vector<Earlie
             if (isStored(paths[i])) driver.system_.placeAt(paths[i].stored[level].left);
             if (isAside) driver.system_.stop();
             driver.earlier_.begun = isStored(paths[i]) ? paths[i].stored[level].begun : paths[i].begun;
+            driver.earlier_.place = isStored(paths[i]) ? paths[i].stored[level].place : paths[i].place;
             orders.push_back({&driver, isStored(paths[i]) ? paths[i].stored[level].moves : paths[i].moves,
                               isStored(paths[i]) ? std::nullopt : paths[i].awaited});
         }
@@ -113,7 +186,8 @@ void MotionDriver::finishEarlierLevel(const EarlierPath& path, std::size_t numbe
     if (number == path.stored.size()) {
         if (!isOrdered) {
             earlier_.begun = path.begun;
-            orderEarlier(path.moves);
+            earlier_.place = path.place;
+            orderEarlier(orderEarlierUnderWay(path));
         }
         return holdEarlier(path);
     }
@@ -121,7 +195,7 @@ void MotionDriver::finishEarlierLevel(const EarlierPath& path, std::size_t numbe
     if (!isOrdered) return storeEarlier(level);
     system_.storePath();
     system_.placeAt(here);
-    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended});
+    levels_.push_back({level.stopMove, {}, level.left, level.isSuspended, level.place});
 }
 
 } // namespace rt

@@ -74,6 +74,26 @@ void MotionDriver::refresh() {
         if (member.driver != this) member.driver->refreshAlone();
 }
 
+void MotionDriver::setOverride(double percent) {
+    system().setOverride(percent);
+    refresh();
+    tell(ArmChange::Override);
+}
+
+void MotionDriver::setProgramOverride(double percent) {
+    std::vector<MotionDriver*> drivers{this};
+    if (const auto group = synchronised()) { // they have one speed
+        drivers.clear();
+        for (const SynchronisedGroup::Member& member : group->members())
+            drivers.push_back(member.driver);
+    }
+    for (MotionDriver* driver : drivers)
+        driver->system().setProgramOverride(percent);
+    refresh();
+    for (MotionDriver* driver : drivers)
+        driver->tell(ArmChange::Override);
+}
+
 void MotionDriver::refreshAlone() {
     advance(scheduler_.now());
     schedule();
@@ -479,9 +499,13 @@ motion::Pose MotionDriver::startOf(const motion::MoveCommand& command) const {
 
 void MotionDriver::enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
                             const motion::JointTarget& endAxes, const Task* task) {
-    while (ordered_.size() > 1 &&
-           system_.isDone(ordered_[1].id)) // the arm may be in the corner after one that is done
-        ordered_.pop_front();
+    // The latest one of those that are done remains: the arm may be in the corner after it.
+    for (auto at = ordered_.begin(); at != ordered_.end() && std::next(at) != ordered_.end();) {
+        const auto next = std::next(at);
+        const bool isNextDone = system_.isDone(next->id);
+        if (!isNextDone && next->level == pathLevel()) break;                  // so are those after it
+        at = isNextDone && system_.isDone(at->id) ? ordered_.erase(at) : next; // a path may be put aside
+    }
     ordered_.push_back({id, command, start, pathLevel()});
     if (traces_.empty()) return;
     motion::FrameSetup frames = command.frames;

@@ -46,6 +46,7 @@ enum class ArmChange : uint8_t {
     PowerFailed, ///< follows MotorsOff when the power has failed
     Start,       ///< the program starts again
     CornerLost,  ///< a fly-by point has become a stop point, and warnings of that are on (CornerPathWarning)
+    Override,    ///< one of the speed overrides has changed
     OutOfReach   ///< a path modifier asked for a place that the arm cannot reach; it brakes on its path
 };
 
@@ -64,6 +65,9 @@ class MotionDriver final : public SteppedArm {
     /// call refresh().
     motion::MotionSystem& system();
     void refresh();
+    /// The speed override of the operator, and that of the program (SpeedRefresh): percent, from now on.
+    void setOverride(double percent);
+    void setProgramOverride(double percent);
     const robot::RobotModel& model() const { return system_.model(); }
     /// Name of the robot: "ROB_1"; "" for external units alone.
     const std::string& unitName() const { return unitName_; }
@@ -165,6 +169,13 @@ class MotionDriver final : public SteppedArm {
     /// Executed now, the instruction would continue the movement that it has ordered already (RETRY after a process error).
     bool continuesMovement(const Task& task);
 
+    /// The place of the arm on the first of the moves, or in the zone between two.
+    struct EarlierPlace {
+        std::optional<motion::MoveCommand> before; ///< in a zone: the move to the point
+        bool isPassed = false;                     ///< that one is none of the unfinished moves any more
+        motion::JointTarget from; ///< where `before`, or the first move, begins as programmed
+        double covered = 0;       ///< MotionSystem::PlaceUnderWay::covered
+    };
     /// A path that an earlier process had put aside (StorePath).
     struct EarlierLevel {
         std::vector<motion::MoveCommand> moves;
@@ -172,13 +183,7 @@ class MotionDriver final : public SteppedArm {
         motion::JointTarget left;          ///< where the arm stood then
         StopFlags stopMove;
         bool isSuspended = false; ///< the robot moved for itself there, not with those of SyncMoveOn
-    };
-    /// The place of the arm on the first of the moves, or in the zone between two.
-    struct EarlierPlace {
-        std::optional<motion::MoveCommand> before; ///< in a zone: the move to the point
-        bool isPassed = false;                     ///< that one is none of the unfinished moves any more
-        motion::JointTarget from; ///< where `before`, or the first move, begins as programmed
-        double covered = 0;       ///< mm of path since then; in a zone since its beginning
+        std::optional<EarlierPlace> place;
     };
     /// The path that an earlier process left.
     struct EarlierPath {
@@ -190,7 +195,7 @@ class MotionDriver final : public SteppedArm {
         StopFlags stopMove;                ///< StopMove holds the arm
         bool levelHold = false;            ///< RestoPath does
         bool isSuspended = false;          ///< as in EarlierLevel
-        std::optional<EarlierPlace> place; ///< on the present level; not of synchronised robots
+        std::optional<EarlierPlace> place; ///< on the present level
     };
     EarlierPath remainingPath();
     /// From where the arm is. The next movement the program orders is `awaited`, whatever its arguments are now.
@@ -198,6 +203,11 @@ class MotionDriver final : public SteppedArm {
     /// The same for the robots of a SynchronisedGroup (joinGroup), in its order: movements they had ordered together they continue
     /// together.
     static void continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths);
+    /// The robots of the group, about to make these movements, continue on the path that an earlier process left; nothing when
+    /// it did not, or when they cannot.
+    static std::optional<std::vector<motion::MoveId>>
+    continueUnderWay(const SynchronisedGroup& group, std::vector<motion::MoveCommand>& commands,
+                     std::vector<Beginning>& beginnings);
     /// An axis was in independent mode at a power failure, so that the program cannot continue where it was (manual 2.2.4).
     bool hasLostIndependentAxis() const { return lostIndependentAxis_; }
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
@@ -274,10 +284,16 @@ class MotionDriver final : public SteppedArm {
     std::vector<motion::MoveCommand> orderEarlierUnderWay(const EarlierPath& path);
     std::optional<motion::MoveId> orderUnderWay(motion::MoveCommand& command, Beginning& beginning);
     std::optional<EarlierPlace> placeLeft();
+    Beginning takeUnderWay(const EarlierPlace& place, const motion::MotionSystem::OrderedUnderWay& ordered,
+                           const motion::MoveCommand& command);
     void storeEarlier(const EarlierLevel& level);
     void holdEarlier(const EarlierPath& path);
     struct EarlierOrders;
     static void orderEarlierTogether(SynchronisedGroup& group, const std::vector<EarlierOrders>& orders);
+    static std::size_t orderTogetherUnderWay(SynchronisedGroup& group,
+                                             const std::vector<EarlierOrders>& orders,
+                                             std::vector<std::vector<motion::MoveCommand>>& left,
+                                             std::size_t complete);
     void finishEarlierLevel(const EarlierPath& path, std::size_t number, bool isOrdered,
                             const motion::JointTarget& here);
     Status takeProcessError(Task& task);
@@ -316,6 +332,7 @@ class MotionDriver final : public SteppedArm {
         Interrupted interrupted;
         motion::JointTarget left;
         bool wasSuspended = false;
+        std::optional<EarlierPlace> place;
     };
     std::vector<StoredLevel> levels_;
     motion::MoveId brokenPath_ = 0; // last move of the path at the power failure; 0 = none

@@ -12,12 +12,13 @@ Status MotionDriver::storePath(Task& task, bool keepSync) {
     applyStops();
     const Status status = waitZeroSpeed(task);
     levelHold_ = false;
+    const auto place = status == kOk ? placeLeft() : std::nullopt;
     if (status != kOk || !system().storePath()) {
         applyStops();
         return status;
     }
     levels_.push_back({std::exchange(stopMove_, {}), std::exchange(interrupted_, {}), system_.currentJoints(),
-                       isSuspended_});
+                       isSuspended_, place});
     if (synchronised_ != nullptr && !keepSync) isSuspended_ = true;
     applyStops();
     return kOk;

@@ -177,6 +177,24 @@ std::vector<motion::MoveCommand> movesFrom(const Json& json, const robot::UnitLo
     return moves;
 }
 
+Json placeJson(const MotionDriver::EarlierPlace& place) {
+    Json json = {{"passed", place.isPassed},
+                 {"from", place.from.robax},
+                 {"fromAxes", place.from.extax},
+                 {"covered", place.covered}};
+    if (place.before) json["before"] = jsonOf(*place.before);
+    return json;
+}
+
+MotionDriver::EarlierPlace placeFrom(const Json& json, const robot::UnitLookup& units) {
+    MotionDriver::EarlierPlace place;
+    json.at("passed").get_to(place.isPassed);
+    place.from = {jointsFrom(json.at("from")), numbersFrom<6>(json.at("fromAxes"))};
+    json.at("covered").get_to(place.covered);
+    if (json.contains("before")) place.before = moveFrom(json.at("before"), units);
+    return place;
+}
+
 StopFlags stopFlagsFrom(const Json& json) {
     return {json.at("stopMove").get<bool>(), json.value("otherStopMove", false)};
 }
@@ -191,13 +209,7 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
                  {"suspended", path.isSuspended}};
     if (path.awaited) json["awaited"] = jsonOf(*path.awaited);
     if (path.begun) json["begun"] = jsonOf(*path.begun);
-    if (const auto& place = path.place) {
-        json["place"] = {{"passed", place->isPassed},
-                         {"from", place->from.robax},
-                         {"fromAxes", place->from.extax},
-                         {"covered", place->covered}};
-        if (place->before) json["place"]["before"] = jsonOf(*place->before);
-    }
+    if (path.place) json["place"] = placeJson(*path.place);
     Json stored = Json::array();
     for (const MotionDriver::EarlierLevel& level : path.stored) {
         Json one = {{"path", movesJson(level.moves)},
@@ -207,6 +219,7 @@ Json jsonOf(const MotionDriver::EarlierPath& path) {
                     {"left", level.left.robax},
                     {"leftAxes", level.left.extax}};
         if (level.begun) one["begun"] = jsonOf(*level.begun);
+        if (level.place) one["place"] = placeJson(*level.place);
         stored.push_back(std::move(one));
     }
     json["stored"] = std::move(stored);
@@ -222,14 +235,7 @@ MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLoo
     if (!json.contains("stored")) return path; // written by an earlier version
     json.at("levelHold").get_to(path.levelHold);
     path.isSuspended = json.value("suspended", false);
-    if (json.contains("place")) {
-        const Json& place = json.at("place");
-        path.place = {{},
-                      place.at("passed").get<bool>(),
-                      {jointsFrom(place.at("from")), numbersFrom<6>(place.at("fromAxes"))},
-                      place.at("covered").get<double>()};
-        if (place.contains("before")) path.place->before = moveFrom(place.at("before"), units);
-    }
+    if (json.contains("place")) path.place = placeFrom(json.at("place"), units);
     for (const Json& one : json.at("stored")) {
         MotionDriver::EarlierLevel level;
         level.moves = movesFrom(one.at("path"), units);
@@ -237,6 +243,7 @@ MotionDriver::EarlierPath earlierPathFrom(const Json& json, const robot::UnitLoo
         level.isSuspended = one.value("suspended", false);
         level.left = {jointsFrom(one.at("left")), numbersFrom<6>(one.at("leftAxes"))};
         if (one.contains("begun")) level.begun = poseFrom(one.at("begun"));
+        if (one.contains("place")) level.place = placeFrom(one.at("place"), units);
         path.stored.push_back(std::move(level));
     }
     return path;

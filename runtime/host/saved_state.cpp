@@ -330,17 +330,18 @@ void SavedState::restorePaths(StateImage& image) {
     for (StateImage::Group& group : image.groups) {
         MotionDriver::EarlierPath& path = group.path;
         findCarriers(controller_.motions(), path.moves);
-        for (MotionDriver::EarlierLevel& level : path.stored)
+        const auto findCarrier = [&](std::optional<motion::MoveCommand>& move) {
+            if (!move) return;
+            std::vector<motion::MoveCommand> one{*move};
+            findCarriers(controller_.motions(), one);
+            move = one.front();
+        };
+        for (MotionDriver::EarlierLevel& level : path.stored) {
             findCarriers(controller_.motions(), level.moves);
-        if (path.place && path.place->before) {
-            std::vector<motion::MoveCommand> before{*path.place->before};
-            findCarriers(controller_.motions(), before);
-            path.place->before = before.front();
+            if (level.place) findCarrier(level.place->before);
         }
-        if (!path.awaited) continue;
-        std::vector<motion::MoveCommand> awaited{*path.awaited};
-        findCarriers(controller_.motions(), awaited);
-        path.awaited = awaited.front();
+        if (path.place) findCarrier(path.place->before);
+        findCarrier(path.awaited);
     }
     for (const std::vector<std::string>& names : image.synchronised)
         restoreTogether(image, names);

@@ -85,7 +85,12 @@ void SynchronisedGroup::orderStep() {
         beginnings.push_back(member.driver->beginOrder(orders.back()->task, orders.back()->command));
         commands.push_back(orders.back()->command);
     }
-    const auto ordered = motion::MotionSystem::enqueueTogether(all, commands);
+    const auto underWay = MotionDriver::continueUnderWay(*this, commands, beginnings);
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        orders[i]->command = commands[i];
+    using Ordered = motion::Expected<std::vector<motion::MoveId>, motion::MotionSystem::TogetherError>;
+    const Ordered ordered =
+        underWay ? Ordered(*underWay) : motion::MotionSystem::enqueueTogether(all, commands);
     if (!ordered) {
         Order& refused = *orders[ordered.error().command];
         refused.error = ordered.error().error;

@@ -102,6 +102,18 @@ void MotionSystem::Impl::holdOrRelease(StopKind kind) {
         followed.release(seconds());
 }
 
+/// One of the overrides has changed. A path that is put aside runs with the present ones when it continues.
+void MotionSystem::Impl::obeyOverride() {
+    if (overrideShare() > 0) {
+        path().setSpeedShare(seconds(), speedShare());
+        if (detour != nullptr) detour->setSpeedShare(seconds(), speedShare());
+        for (Level& aside : stored)
+            aside.path->setSpeedShare(seconds(), speedShare());
+    }
+    if (!isCoasting) holdOrRelease();
+    noteMotion();
+}
+
 /// Brakes off the path, and notes where on the path the arm would have stopped.
 void MotionSystem::Impl::coastNow() {
     const MotionState from = stateAt(now);

@@ -298,16 +298,30 @@ bool MotionSystem::isStopRequested() const {
     return impl_->isStopRequested;
 }
 
+namespace {
+
+double percentOf(double wanted) {
+    return std::isfinite(wanted) ? std::clamp(wanted, 0.0, 100.0) : 100.0;
+}
+
+} // namespace
+
 void MotionSystem::setOverride(double percent) {
-    Impl& s = *impl_;
-    const double wanted = std::isfinite(percent) ? std::clamp(percent, 0.0, 100.0) : 100.0;
-    if (wanted == std::exchange(s.override, wanted)) return;
-    if (wanted > 0) {
-        s.path().setSpeedShare(s.seconds(), s.speedShare());
-        if (s.detour != nullptr) s.detour->setSpeedShare(s.seconds(), s.speedShare());
-    }
-    if (!s.isCoasting) s.holdOrRelease();
-    s.noteMotion();
+    const double wanted = percentOf(percent);
+    if (wanted != std::exchange(impl_->override, wanted)) impl_->obeyOverride();
+}
+
+void MotionSystem::setProgramOverride(double percent) {
+    const double wanted = percentOf(percent);
+    if (wanted != std::exchange(impl_->programOverride, wanted)) impl_->obeyOverride();
+}
+
+double MotionSystem::programOverride() const {
+    return impl_->programOverride;
+}
+
+double MotionSystem::overrideShare() const {
+    return impl_->overrideShare();
 }
 
 void MotionSystem::setSpeedLimits(const SpeedLimits& most) {

@@ -116,8 +116,10 @@ class MotionSystem {
     struct PlaceUnderWay {
         MoveId move = 0; ///< the one in progress; in a zone the one whose point the curve passes
         bool isInZone = false;
-        JointTarget from;   ///< where the move begins as programmed
-        double covered = 0; ///< mm of path since then; in a zone since its beginning
+        JointTarget from; ///< where the move begins as programmed
+        /// mm of path since then; in a zone since its beginning. Of robots that move together: of the leader's path; in a
+        /// zone of any of them since the beginning of the leader's, possibly before or after it.
+        double covered = 0;
     };
     /// Nothing beside the path, when the arm is led, and when it is at the beginning of a move.
     std::optional<PlaceUnderWay> placeUnderWay() const;
@@ -130,6 +132,15 @@ class MotionSystem {
     /// zones. Nothing, and nothing has changed, when the path does not lead through where the arm is.
     std::optional<OrderedUnderWay> enqueueUnderWay(const JointTarget& from, double covered,
                                                    const MoveCommand* before, const MoveCommand& command);
+    struct UnderWay {
+        JointTarget from;
+        std::optional<MoveCommand> before;
+        MoveCommand command;
+    };
+    /// The same for robots that move together from now on, the leader's movement first; `covered` of its path.
+    static std::optional<std::vector<OrderedUnderWay>>
+    enqueueTogetherUnderWay(const std::vector<MotionSystem*>& systems, const std::vector<UnderWay>& orders,
+                            double covered);
 
     // ---- away from the planned path ----
     /// The modifier acts from now on, after those that were added before.
@@ -185,6 +196,11 @@ class MotionSystem {
     /// stops.
     void setOverride(double percent);
     double speedOverride() const;
+    /// The override of the program (SpeedRefresh), percent 0..100; the product of both counts.
+    void setProgramOverride(double percent);
+    double programOverride() const;
+    /// Share of the programmed speed that both overrides leave, 0..1.
+    double overrideShare() const;
     /// From now on no movement of any path level is faster; the one in progress slows down, or speeds up, on its path.
     void setSpeedLimits(const SpeedLimits& most);
 

@@ -67,7 +67,7 @@ struct MotionSystem::Impl {
     robot::Kinematics kinematics;
 
     TimeNs now = 0;
-    double override = 100;
+    double override = 100, programOverride = 100; // percent, of the operator and of SpeedRefresh
     SpeedLimits speedLimits;
     bool isStopRequested = false;
     bool isStopAnnounced = true;
@@ -99,8 +99,9 @@ struct MotionSystem::Impl {
         return frames;
     }
     Trajectory& path() const { return *level.path; }
-    bool isHeld() const { return isStopRequested || override <= 0; }
-    double speedShare() const { return 0.01 * std::clamp(override, 0.01, 100.0); }
+    bool isHeld() const { return isStopRequested || overrideShare() <= 0; }
+    double overrideShare() const { return 1e-4 * override * programOverride; }
+    double speedShare() const { return std::clamp(overrideShare(), 1e-4, 1.0); }
     const Span& span() const { return *spanAt(now); }
     std::deque<Span>::const_iterator spanAt(TimeNs time) const;
     bool isMoving() const;
@@ -123,7 +124,14 @@ struct MotionSystem::Impl {
     }
     void noteCleared(MoveId first);
     void holdOrRelease(StopKind kind = StopKind::Normal);
+    void obeyOverride();
     std::optional<PathPlace> placeAfter(double covered, std::size_t moves) const;
+    void beginUnderWay(const std::vector<std::pair<MoveCommand, Trajectory::Appended>>& appended,
+                       OrderedUnderWay& ordered);
+    static bool standTogether(const std::vector<MotionSystem*>& systems, const std::vector<JointTarget>& here,
+                              std::size_t moves, double covered);
+    static Expected<std::vector<Trajectory::Ordered>, TogetherError>
+    preparedTogether(const std::vector<MotionSystem*>& systems, const std::vector<MoveCommand>& commands);
     void coastNow();
     void resume();
     bool startDetour();

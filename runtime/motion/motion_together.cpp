@@ -71,9 +71,10 @@ bool MotionSystem::areTogether(const std::vector<MotionSystem*>& systems) {
     return true;
 }
 
-Expected<std::vector<MoveId>, MotionSystem::TogetherError>
-MotionSystem::enqueueTogether(const std::vector<MotionSystem*>& systems,
-                              const std::vector<MoveCommand>& commands) {
+/// The movements as the planner knows them; nothing has been ordered yet.
+Expected<std::vector<Trajectory::Ordered>, MotionSystem::TogetherError>
+MotionSystem::Impl::preparedTogether(const std::vector<MotionSystem*>& systems,
+                                     const std::vector<MoveCommand>& commands) {
     // A point where one of them stops is a stop point for all.
     const bool isFine =
         std::any_of(commands.begin(), commands.end(), [](const MoveCommand& c) { return c.zone.finep; });
@@ -104,11 +105,19 @@ MotionSystem::enqueueTogether(const std::vector<MotionSystem*>& systems,
             moves[i].carrierFrame = std::move(frame);
         }
     }
+    return moves;
+}
+
+Expected<std::vector<MoveId>, MotionSystem::TogetherError>
+MotionSystem::enqueueTogether(const std::vector<MotionSystem*>& systems,
+                              const std::vector<MoveCommand>& commands) {
+    const auto moves = Impl::preparedTogether(systems, commands);
+    if (!moves) return Unexpected{moves.error()};
     Impl& first = *systems.front()->impl_;
-    const Trajectory::Appended appended = first.path().appendTogether(moves, first.seconds());
+    const Trajectory::Appended appended = first.path().appendTogether(*moves, first.seconds());
     std::vector<MoveId> ids;
     for (std::size_t i = 0; i < systems.size(); ++i)
-        ids.push_back(systems[i]->impl_->registerMove(moves[i].command, appended));
+        ids.push_back(systems[i]->impl_->registerMove((*moves)[i].command, appended));
     return ids;
 }
 

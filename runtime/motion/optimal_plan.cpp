@@ -284,10 +284,15 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
 void OptimalPlan::slowTo(Course& course, double begin, double seconds) {
     const double factor = seconds / (course.plannedEnd() - begin);
     if (!(factor > 1)) return;
-    const double fastest = course.slowBy(factor);
-    // Also when the rest is planned again.
-    for (ProfileCell& cell : cells_)
-        cell.mostSquare = std::min(cell.mostSquare, fastest * fastest);
+    course.slowBy(factor);
+    // Also when the rest is planned again, for which the limits are those at full override.
+    double before = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const double after = course.at(course.timeAt(begins_[i] + cells_[i].width)).v / share_;
+        const double fastest = std::max(before, after);
+        cells_[i].mostSquare = std::min(cells_[i].mostSquare, fastest * fastest);
+        before = after;
+    }
 }
 
 // ---- Slowing down ----

@@ -330,10 +330,16 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
     planned_[stretch + 1] = next;
 }
 
-/// A single move with a given duration: as slow as it has to be.
+/// A single move with a given duration: as slow as it has to be at full override, which then acts on the speed.
 void Run::meetDuration() {
     if (route_.legCount() != 1 || !(route_.leg(0).duration > 0)) return;
-    if (optimal_) return optimal_->slowTo(course_, start_, route_.leg(0).duration);
+    if (optimal_) return optimal_->slowTo(course_, start_, route_.leg(0).duration / share_);
+    const double share = std::exchange(share_, 1);
+    findDuration();
+    if (share != share_) plan(start_, share);
+}
+
+void Run::findDuration() {
     const double wanted = route_.leg(0).duration;
     route_.leg(0).limits.pathSpeed = kUnlimited;
     limitStretches(0);
@@ -445,8 +451,8 @@ void Run::brake(double now, StopKind kind) {
     if (optimal_ && isBraking_) return; // as fast as it can already
     decision_.reset();
     isBraking_ = true;
-    if (now <= start_) { // it has not moved
-        course_ = newCourse(start_, 0);
+    if (now <= start_) { // it has not moved since it was put there
+        course_ = newCourse(start_, course_.at(start_).s);
         return;
     }
     if (optimal_) {

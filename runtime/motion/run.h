@@ -87,6 +87,7 @@ class Run {
     void passStretch(std::size_t stretch, double from, double square);
     void passTapered(std::size_t stretch, double from, double square, double last);
     void meetDuration();
+    void findDuration();
     double nodePlace(std::size_t node) const;
 
     RunSettings settings_;

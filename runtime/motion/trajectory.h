@@ -63,6 +63,7 @@ class Trajectory {
     Appended appendTogether(const std::vector<Ordered>& moves, double now);
     /// From now on moves are appended together with those of `follower`; the path is empty.
     void addCompanion(const std::shared_ptr<Trajectory>& follower) { followers_.push_back(follower); }
+    std::size_t companionCount() const { return followers_.size(); }
     const Companions& companionsOf(std::size_t run) const { return runAt(run).companions(); }
     /// The run is a pause; nothing moves.
     virtual bool isPause(std::size_t run) const { return entry(run).pause > 0; }

@@ -147,10 +147,8 @@ void VirtualController::applyPanel() {
     switches.backupInProgress = panel_.backupInProgress;
     switches.backupFailed = panel_.backupFailed;
     core_->setRunOnce(panel_.runOnce);
-    for (const auto& motion : core_->motions()) {
-        motion->system().setOverride(panel_.speedRatio);
-        motion->refresh();
-    }
+    for (const auto& motion : core_->motions())
+        motion->setOverride(panel_.speedRatio);
 }
 
 void VirtualController::observe() {

@@ -72,10 +72,11 @@ class IndependentAxes {
         NamedAxis axis;
         IndependentOrder order;
     };
-    /// The speed in force, at most what the axis can do.
+    /// The speed in force, at most what the axis can do; 0 while an override holds it.
     static double speedOf(MotionDriver& motion, const Ordered& entry) {
-        const double share = motion.service<lib::MotionState>().settings.velocityPercent *
-                             motion.system().speedOverride() * 1e-4;
+        const double override = motion.system().overrideShare();
+        if (override <= 0) return 0;
+        const double share = 0.01 * motion.service<lib::MotionState>().settings.velocityPercent * override;
         const double speed = entry.order.speed * std::clamp(share, 1e-3, 1.0);
         return std::clamp(speed, -entry.axis.fastest, entry.axis.fastest);
     }
@@ -92,18 +93,21 @@ class IndependentAxes {
             arm.independent(axis) != nullptr ? *arm.independent(axis) : motion::AxisCourse(now, here);
         const double acceleration = entry.axis.acceleration * order.ramp;
         const double speed = speedOf(motion, entry);
-        arm.setIndependent(axis, order.endless
+        arm.setIndependent(axis, order.endless || speed == 0
                                      ? course.turning(now, speed, acceleration, entry.axis.jerk)
                                      : course.movedTo(now, order.goal, speed, acceleration, entry.axis.jerk));
         motion.service<lib::WorldZones>().noteMotion();
     }
     /// A program that is stopped stops the axes, too.
     void take(MotionDriver& motion, ArmChange news) {
+        if (news == ArmChange::Start) isStopped_ = false;
+        if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff) isStopped_ = true;
         motion::MotionSystem& arm = motion.system();
         for (const Ordered& entry : orders_) {
             const motion::AxisCourse* course = arm.independent(entry.axis.axis);
             if (course == nullptr) continue;
-            if (news == ArmChange::Start) carryOut(motion, entry);
+            if (news == ArmChange::Start || (news == ArmChange::Override && !isStopped_))
+                carryOut(motion, entry);
             if (news == ArmChange::StopOnPath || news == ArmChange::MotorsOff)
                 arm.setIndependent(
                     entry.axis.axis,
@@ -113,6 +117,7 @@ class IndependentAxes {
 
     std::vector<Ordered> orders_;
     bool listening_ = false;
+    bool isStopped_ = false; // with the program
 };
 
 motion::MotionSystem& systemOf(TaskCore* task) {

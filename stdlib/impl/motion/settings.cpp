@@ -113,14 +113,13 @@ Status rt_ConfL(TaskCore* task, bool, bool Off) {
 Status rt_SpeedRefresh(TaskCore* task, float Override) {
     if (!(Override >= 0 && Override <= 100))
         return lib::fail(task, err::ERR_SPEED_REFRESH_LIM, "the override must lie between 0 and 100 percent");
-    MotionDriver& driver = lib::motionOf(task);
-    driver.system().setOverride(Override);
-    driver.refresh();
+    lib::motionOf(task).setProgramOverride(Override);
     return kOk;
 }
 
-Status rt_CSpeedOverride(TaskCore* task, float* result, bool) {
-    *result = static_cast<float>(lib::motionOf(task).system().speedOverride());
+Status rt_CSpeedOverride(TaskCore* task, float* result, bool CTask) {
+    const motion::MotionSystem& arm = lib::motionOf(task).system();
+    *result = static_cast<float>(CTask ? arm.programOverride() : arm.speedOverride());
     return kOk;
 }
 

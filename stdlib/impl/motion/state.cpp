@@ -38,6 +38,8 @@ void resetSettings(Task& task) {
     if (!task.isMotionTask()) return;
     restoreDefaults(task);
     MotionDriver& motion = task.controller().motion(task);
+    motion.system().setProgramOverride(100);
+    motion.refresh();
     endSpeedOutputs(task);
     endStopSupervision(task);
     endTemporaryZones(task);

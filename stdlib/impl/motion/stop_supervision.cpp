@@ -71,6 +71,7 @@ class StopSupervision {
             [[fallthrough]];
         case ArmChange::PowerFailed:
         case ArmChange::CornerLost:
+        case ArmChange::Override:
         case ArmChange::OutOfReach:
         case ArmChange::Event:
             if (braking_ && !motion_->system().isMoving()) end(controller);
