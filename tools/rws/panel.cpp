@@ -75,8 +75,8 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     };
     show(Dialect::V1, "ctrlstate", kMotors);
     show(Dialect::V2, "ctrl-state", kMotors);
+    show(Dialect::V1, "opmode", kMode);
     for (const Dialect dialect : {Dialect::V1, Dialect::V2}) {
-        show(dialect, "opmode", kMode);
         show(dialect, "speedratio", kSpeed);
         show(dialect, "coldetstate", kCollision);
     }
@@ -123,6 +123,13 @@ void Panel::addMode(Router& router) {
     addOrder(router, "/rw/panel/opmode", "unlock", "unlock", [this](const Request&) {
         locked_ = false;
         return Reply::done();
+    });
+    // Clients of RWS 2.0 take the first of several entries: the second one leads to the lock.
+    router.get(Dialect::V2, "/rw/panel/opmode", [this](const Request&) {
+        Document document;
+        document.entries.push_back(entryOf(controller_, kMode, ""));
+        document.add("pnl-opmode-lockstate-li", "lock-state").self = "/rw/panel/opmode/lock-state";
+        return Reply::of(std::move(document));
     });
     router.get(Dialect::V2, "/rw/panel/opmode/lock-state", [this](const Request&) {
         Document document;
