@@ -222,10 +222,11 @@ Reply Panel::lock(const Request& request) {
 
 Reply Panel::restart(const Request& request) {
     const std::string mode = request.form.text("restart-mode");
-    if (mode == "restart" || mode.empty()) return replyTo(controller_.restart(service::RestartMode::Warm));
+    if (mode == "restart" || mode.empty())
+        return replyTo(controller_.orderRestart(service::RestartMode::Warm));
     if (mode != "istart" && mode != "pstart" && mode != "bstart")
         return badParameter("restart-mode", "restart, istart, pstart or bstart");
-    return replyTo(controller_.restart(service::RestartMode::Cold));
+    return replyTo(controller_.orderRestart(service::RestartMode::Cold));
 }
 
 Reply Panel::setChain(const Request& request, void (service::VirtualController::*order)(bool)) {
