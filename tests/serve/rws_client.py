@@ -125,6 +125,20 @@ class Response:
             return {rel: link["href"] for rel, link in self.json()["_links"].items()}
         return read_xhtml(self.body)[2]
 
+    def base(self):
+        """The address that relative ones count from."""
+        if self.is_json():
+            return self.json()["_links"]["base"]["href"]
+        return next(element.get("href") for element in xml.fromstring(self.body).iter() if _name(element) == "base")
+
+    def following(self):
+        """Path and query of the next page, which may be relative to the base; None on the last one."""
+        address = self.links().get("next")
+        if not address:
+            return None
+        parts = urllib.parse.urlsplit(urllib.parse.urljoin(self.base(), address.replace("&amp;", "&")))
+        return f"{parts.path}?{parts.query}"
+
     def code(self):
         """The return code of an error."""
         if not self.is_json():

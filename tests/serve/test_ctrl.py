@@ -251,5 +251,26 @@ class Restart(ServeCase):
         self.assertEqual(socket.event().values["lvalue"], "1")
 
 
+class RestartThatFails(ServeCase):
+    FILES = {"EIO.cfg": Restart.FILES["EIO.cfg"]}
+    MODULE = "MODULE M\n  PROC main()\n    SetDO doOld, 1;\n    WaitTime 100;\n  ENDPROC\nENDMODULE\n"
+
+    def test_the_program_needs_what_was_deleted(self):
+        """Line 31: a restart is answered before the programs are compiled for the changed configuration. What has mistakes then is
+        not taken (line 36): the controller stays as it was, and the event log says why."""
+        client = self.client(2)
+        self.assertEqual(client.post("/rw/mastership/edit/request").status, 204)
+        signal = "/rw/cfg/eio/EIO_SIGNAL/instances/doOld"
+        deleted = client.delete(signal)
+        self.assertEqual(deleted.status, 204, deleted.body)
+        self.assertEqual(client.post("/ctrl/restart", {"restart-mode": "restart"}).status, 204)
+
+        def reason():
+            entries = self.client(1).get("/rw/elog/0?lang=en").entries("elog-message-li")
+            return next((entry.values["desc"] for entry in entries if entry.values["code"] == "10921"), "")
+        self.eventually(lambda: "doOld" in reason(), 10)
+        self.assertEqual(client.get("/rw/iosystem/signals/doOld").values()["lvalue"], "1")
+
+
 if __name__ == "__main__":
     main()

@@ -22,7 +22,7 @@ class Files(ServeCase):
         """Issue 20 section 6: $HOME, $BACKUP, $TEMP, $RAMDISK, $SYSTEM; line 22: fs-device | fs-dir."""
         for client in self.both():
             found = {entry.title.lstrip("$") for entry in client.get("/fileservice").entries()}
-            self.assertLessEqual({"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"}, found)
+            self.assertLessEqual({"HOME", "BACKUP", "TEMP", "RAMDISK", "DATA", "SYSTEM"}, found)
             for path in ("$HOME", "HOME", "$home", "home", "%24HOME"):
                 self.assertEqual(client.get("/fileservice/" + path).status, 200, path)
             self.assertEqual(client.get("/fileservice/NOTHING").status, 404)
@@ -94,9 +94,14 @@ class Files(ServeCase):
             response = client.get(path)
             titles += [entry.title for entry in response.entries("fs-file")]
             self.assertLessEqual(len(response.entries()), 100)
-            following = response.links().get("next")
-            path = following.replace("&amp;", "&") if following else None
+            path = response.following()
         self.assertEqual(titles, [f"f{number:03}.txt" for number in range(130)])
+        # The App SDK asks for /fileservice/FOLDER/ followed by the address of the next page.
+        response = client.get("/fileservice/HOME/many")
+        self.assertTrue(response.base().endswith("/fileservice/HOME/many/"))
+        self.assertEqual(response.entries("fs-file")[0].links["self"], "f000.txt")
+        rest = client.get("/fileservice/HOME/many/" + response.links()["next"].replace("&amp;", "&"))
+        self.assertEqual([entry.title for entry in rest.entries("fs-file")], titles[100:])
         client.delete("/fileservice/HOME/many")
 
     def test_nothing_leaves_a_volume(self):

@@ -1,5 +1,7 @@
 """Signals, networks and devices (contract 24, 26, 31, 34, 41, 42, 44; facts 2.3 I/O)."""
 
+import re
+
 from serve_testing import IDLE_MODULE, ServeCase, main
 
 EIO = """EIO:CFG_1.0:7:0::
@@ -68,8 +70,7 @@ class Io(ServeCase):
                 entries = response.entries("ios-signal-li")
                 self.assertLessEqual(len(entries), 100)
                 titles += [entry.title for entry in entries]
-                following = response.links().get("next")
-                path = following.replace("&amp;", "&") if following else None
+                path = response.following()
                 pages += 1
             self.assertEqual(len(titles), self.COUNT)
             self.assertEqual(len(set(titles)), self.COUNT)
@@ -78,6 +79,19 @@ class Io(ServeCase):
         self.assertEqual(len(client.get(SIGNALS + "?limit=7").json()["_embedded"]["resources"]), 7)
         self.assertEqual(client.get(SIGNALS + "?start=9999").status, 400)
         self.assertEqual(client.get(SIGNALS + "?limit=0").status, 400)
+
+    def test_addresses_count_from_the_base(self):
+        """Recorded answers of controllers: the base of the I/O system is /rw/iosystem/, the addresses are signals/.., devices/.. and
+        networks/.., in JSON of RWS 1.0 with ?json=1. Clients put the base in front of them."""
+        for client in self.both():
+            for query in ("", "?json=1") if client.dialect == 1 else ("",):
+                for kind in ("signals", "networks", "devices"):
+                    response = client.get(f"/rw/iosystem/{kind}{query}")
+                    self.assertTrue(response.base().endswith("/rw/iosystem/"))
+                    for entry in response.entries()[:5]:
+                        address = entry.links["self"]
+                        self.assertRegex(address, rf"^{kind}/[^?]+{re.escape(query)}$")
+                        self.assertEqual(client.get("/rw/iosystem/" + address).entries()[0].title, entry.title)
 
     def test_titles(self):
         """Line 24: net/dev/name with a device, the bare name without one; both addresses."""

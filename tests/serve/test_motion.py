@@ -147,6 +147,12 @@ class Motion(ServeCase):
             self.assertEqual(client.post(UNIT + "/lead-through", {"status": word}).status, 204)
             self.assertEqual(client.get(UNIT + "/lead-through").values()["status"].lower(), word)
         self.assertEqual(client.post(UNIT + "/lead-through", {"status": "odd"}).status, 400)
+        other = self.client(2)
+        self.assertEqual(other.post(UNIT + "/lead-through", {"status": "active"}).status, 403)  # line 37
+        client.close()
+        self.eventually(lambda: other.get("/rw/mastership/motion").values()["mastership"] == "nomaster")
+        for word in ("active", "inactive"):  # line 38: motion is for jog, teleport and active tool
+            self.assertEqual(other.post(UNIT + "/lead-through", {"status": word}).status, 204)
 
     # ---- Kinematics ----------------------------------------------------------------------------------------------------
 

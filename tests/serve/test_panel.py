@@ -22,7 +22,13 @@ class Panel(RapidCase):
                 ("coldetstate", "/rw/panel/coldetstate", "/rw/panel/coldetstate", "INIT")):
             with self.subTest(span=span):
                 for entries in self.in_all_forms(path1, path2).values():
-                    self.assertEqual([(entry.type, entry.values[span]) for entry in entries], [(f"pnl-{span}", value)])
+                    self.assertEqual([(entry.type, entry.values[span]) for entry in entries[:1]], [(f"pnl-{span}", value)])
+
+    def test_mode_and_its_lock(self):
+        """A client of RWS 2.0 takes the first of several entries of the mode; the second one leads to the lock."""
+        entries = self.client(2).get("/rw/panel/opmode").entries()
+        self.assertEqual([entry.type for entry in entries], ["pnl-opmode", "pnl-opmode-lockstate-li"])
+        self.assertEqual(self.client(2).get(entries[1].links["self"]).values()["lockstate"], "unlocked")
 
     def test_motors(self):
         for client in self.both():

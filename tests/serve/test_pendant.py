@@ -26,9 +26,11 @@ MODULE = """MODULE MainModule
     note := ValToStr(value);
     TPWrite note;
   ENDPROC
+  VAR listitem parts{2} := [["", "Cover"], ["", "Shaft"]];
   PROC enter()
     count := UINumEntry(\\Header:="Parts" \\InitValue:=12 \\MinValue:=1 \\MaxValue:=40 \\AsInteger);
     TPWrite UIAlphaEntry(\\Header:="Batch" \\InitString:="B-1");
+    count := UIListView(\\Header:="Part", parts \\Buttons:=btnOK \\DefaultIndex:=2);
   ENDPROC
   PROC ask()
     VAR num answer;
@@ -593,6 +595,9 @@ class Operator(PendantCase):
         self.page.call("panel.cycle", cycle="once")
         self.addCleanup(self.page.call, "panel.cycle", cycle="forever")
         self.page.call("dialogs.answer", id=text["id"], text="B-2")
+        items = self.page.wait("dialog", lambda data: data.get("opened", {}).get("kind") == "list")["opened"]
+        self.assertEqual((items["items"], items["initial"]), (["Cover", "Shaft"], "2"))  # the argument DefaultIndex
+        self.page.call("dialogs.answer", id=items["id"], choice=1)  # OK alone takes it
         self.eventually(lambda: not self.panel()["running"])
 
     def test_display(self):

@@ -363,6 +363,13 @@ class Modules(RapidCase):
             self.assertEqual(client.act(program, "loadprog", form, "load").status, 204)
             self.eventually(lambda: sorted(self.names(client)) == ["M", "Sys"])
             self.assertEqual(client.get(program).values()["name"], "Shop")
+            for name in ("First", "first.pgf"):  # a name, with its extension or without, beside the path
+                self.assertEqual(client.act(program, "save", {"path": folder, "name": name}).status, 204)
+            if client.dialect == 2:
+                self.assertEqual(client.post(program + "/save?name=First", {"path": folder}).status, 204)
+            self.assertEqual(len([file for file in os.listdir(os.path.join(self.home, folder[6:])) if file.endswith(".pgf")]), 3)
+            for wrong in ("../x", "a/b", ".x", "x" * 90):
+                self.assertEqual(client.act(program, "save", {"path": folder, "name": wrong}).status, 400)
 
     def test_routine_of_a_place(self):
         """RWS 1.0 documentation, Get Routine information: rap-routine-prop with name, symtyp, named, local, npar."""

@@ -365,6 +365,18 @@ class Changing(SubscriptionCase):
             self.assertIsNone(socket.text())
             self.assertIn(client.delete(group).status, (400, 404))
 
+    def test_the_reply_to_delete_comes_before_the_close(self):
+        """A client that deletes its group in order to close the socket takes a close before the reply for a lost connection."""
+        for client in self.both():
+            response, socket = self.open(client, OPMODE)
+            begin = time.monotonic()
+            self.assertEqual(client.delete("/subscription/" + response.header("location").rsplit("/", 1)[1]).status, 200)
+            replied = time.monotonic()
+            self.assertIsNone(socket.text())
+            closed = time.monotonic()
+            self.assertGreater(closed - begin, 0.14)  # 150 ms after the group has ended, which the reply says
+            self.assertLess(replied, closed)
+
     def test_put_adds_and_delete_removes(self):
         for client in self.both():
             response, socket = self.open(client, (signal("do1"), 2))

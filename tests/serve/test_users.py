@@ -62,6 +62,18 @@ class Users(RapidCase):
             self.assertEqual(client.get("/users/rmmp").values()["privilege"], "none")
             self.assertNotEqual(client.get("/users/rmmp/poll").values()["status"], "GRANTED")
 
+    def test_privilege_that_is_granted(self):
+        """RWS 1.0 documentation, Grant or deny RMMP: POST /users/rmmp?action=set with uid and privilege modify, exec or deny."""
+        client, grant = self.client(1), "/users/rmmp?action=set"
+        client.post("/users/rmmp", {"privilege": "modify"})
+        form = {"uid": client.get("/users/rmmp").values()["userid"]}
+        for level, status in (("modify", "GRANTED"), ("deny", "NO SUCH REQUEST"), ("exec", "GRANTED")):
+            self.assertEqual(client.post(grant, {**form, "privilege": level}).status, 204)
+            self.assertEqual(client.get("/users/rmmp/poll").values()["status"], status)
+        for wrong in ({"uid": "0", "privilege": "modify"}, {"uid": "x", "privilege": "modify"}, {**form, "privilege": "all"}, {}):
+            self.assertEqual(client.post(grant, wrong).status, 400)
+        client.act("/users/rmmp", "cancel")
+
 
 if __name__ == "__main__":
     main()

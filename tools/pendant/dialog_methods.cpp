@@ -46,6 +46,19 @@ Json describe(const Open& open) {
     return described;
 }
 
+/// An item, a button, or both; a button alone takes the default item.
+std::string answerToList(const rt::Dialog& dialog, const Json& params) {
+    const auto numberIn = [&params](const char* name, const std::vector<std::string>& among) {
+        return static_cast<std::size_t>(
+            wholeOf(params, name, 1, static_cast<int64_t>(std::max<std::size_t>(among.size(), 1))));
+    };
+    std::string answer, button;
+    if (has(params, "choice") && !dialog.choices.empty())
+        button = dialog.choices[numberIn("choice", dialog.choices) - 1];
+    if (button.empty() || has(params, "item")) answer = std::to_string(numberIn("item", dialog.items));
+    return answer.empty() || button.empty() ? answer + button : answer + " " + button;
+}
+
 /// UIMsgWrite: a message that stays while the program continues; its id is 0.
 Json describe(const rt::PanelMessage& message) {
     return {{"id", 0},
@@ -169,10 +182,7 @@ Json DialogArea::answer(const Json& params) {
         answer = std::to_string(choice);
         break;
     }
-    case rt::DialogKind::List:
-        answer = std::to_string(
-            wholeOf(params, "item", 1, static_cast<int64_t>(std::max<std::size_t>(dialog.items.size(), 1))));
-        break;
+    case rt::DialogKind::List: answer = answerToList(dialog, params); break;
     case rt::DialogKind::Number: answer = fmt::format("{}", numberOf(params, "number")); break;
     case rt::DialogKind::Text: {
         const std::string text = textOf(params, "text");

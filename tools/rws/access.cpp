@@ -31,4 +31,12 @@ Handler Access::guarded(Domain domain, Handler handler) const {
     };
 }
 
+Handler Access::shared(Domain domain, Handler handler) const {
+    return [this, domain, handler = std::move(handler)](const Request& request) {
+        const std::optional<Failure> failure = refusal(request, domain);
+        const bool isKeptOut = failure && failure->code != ReturnCode::NoMastership;
+        return isKeptOut ? Reply::refuse(*failure) : handler(request);
+    };
+}
+
 } // namespace rapidc::rws

@@ -22,6 +22,8 @@ class Access {
     /// ?mastership=implicit; with RobotWare 8 its control station has write access. In manual mode changes of data, programs and
     /// configuration need the privilege of /users/rmmp.
     std::optional<Failure> refusal(const Request& request, Domain domain) const;
+    /// The handler, for all but those whom another client keeps out: whoever holds no mastership may, too.
+    Handler shared(Domain domain, Handler handler) const;
     /// The handler, for those who may. The access must outlive what is returned.
     Handler guarded(Domain domain, Handler handler) const;
 

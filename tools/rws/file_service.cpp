@@ -142,25 +142,12 @@ Reply FileService::create(const Request& request) const {
 }
 
 /// A file, to a path in any volume.
-FileResult FileService::copyTo(const std::string& from, const std::string& to, bool overwrite) const {
-    FileEntry source, target;
-    if (FileResult found = volumes_.describe(from, source); !found.isDone()) return found;
-    if (source.isFolder)
-        return {service::FileProblem::Refused, fmt::format("{} is a folder: give a bare name", from)};
-    if (volumes_.describe(to, target).isDone() && (!overwrite || target.isFolder))
-        return {service::FileProblem::Exists, fmt::format("{} exists already", to)};
-    std::string bytes;
-    if (FileResult found = volumes_.read(from, bytes); !found.isDone()) return found;
-    bool isNew = false;
-    return volumes_.write(to, bytes, isNew);
-}
-
 /// The App SDK gives a bare name, or the address of the new file in the file service.
 Reply FileService::copy(const Request& request) const {
     const bool overwrite = flagIn(fieldOf(request, "fs-overwrite")).value_or(false);
     const std::string from = request.parameter("path"), name = fieldOf(request, "fs-newname");
     const FileResult copied = beginsWithName(name, "/fileservice/")
-                                  ? copyTo(from, pathInVolume(name), overwrite)
+                                  ? volumes_.copyTo(from, pathInVolume(name), overwrite)
                                   : volumes_.copy(from, name, overwrite);
     return copied.isDone() ? Reply::done() : refuseFile(copied);
 }

@@ -21,7 +21,6 @@ class FileService {
     /// RWS 1.0: fs-action=create, copy or rename in the form.
     Reply act(const Request& request) const;
     Reply create(const Request& request) const;
-    service::FileResult copyTo(const std::string& from, const std::string& to, bool overwrite) const;
     Reply copy(const Request& request) const;
     Reply rename(const Request& request) const;
 

@@ -44,11 +44,15 @@ constexpr std::array<Increment, 3> kIncrements = {
 
 } // namespace
 
-Handler MechanicalUnits::changing(Reply (MechanicalUnits::*handler)(const Request&, const Unit&)) {
-    return access_.guarded(Domain::Motion, [this, handler](const Request& request) {
+Handler MechanicalUnits::forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&)) {
+    return [this, handler](const Request& request) {
         const Unit* unit = unitOf(request);
         return unit == nullptr ? noUnit(request) : (this->*handler)(request, *unit);
-    });
+    };
+}
+
+Handler MechanicalUnits::changing(Reply (MechanicalUnits::*handler)(const Request&, const Unit&)) {
+    return access_.guarded(Domain::Motion, forUnit(handler));
 }
 
 Reply MechanicalUnits::choose(const Request& request, const Unit& unit) {
@@ -278,7 +282,10 @@ void MechanicalUnits::addChanges(Router& router) {
     };
     change(unit, "set", "", &MechanicalUnits::choose);
     change(unit, "mechunit-position", "position", &MechanicalUnits::teleport);
-    change(unit, "set-lead-through", "lead-through", &MechanicalUnits::setLeadThrough);
+    // Of the changes here only this one needs no mastership of motion: it orders no movement.
+    const Handler leadThrough = access_.shared(Domain::Motion, forUnit(&MechanicalUnits::setLeadThrough));
+    router.action(unit, "set-lead-through", leadThrough);
+    router.post(Dialect::V2, unit + "/lead-through", leadThrough);
     change(unit + "/motionsupervision", "set", "mode", &MechanicalUnits::setMotionSupervision);
     router.post(Dialect::V2, unit + "/motionsupervision/level",
                 changing(&MechanicalUnits::setMotionSupervision));

@@ -26,6 +26,7 @@ class MechanicalUnits {
     static Reply noUnit(const Request& request);
     /// A handler for the unit that the request names: 404 or 400 when there is none.
     Handler forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&) const) const;
+    Handler forUnit(Reply (MechanicalUnits::*handler)(const Request&, const Unit&));
     Handler changing(Reply (MechanicalUnits::*handler)(const Request&, const Unit&));
     void addMotionSystem(Router& router);
     void addUnits(Router& router);

@@ -36,7 +36,8 @@ bool acceptsAnything(std::string_view accept) {
 bool asksForNewestMessages(std::string_view path,
                            const std::vector<std::pair<std::string, std::string>>& query) {
     return isBelow(path, "/rw/elog") && std::any_of(query.begin(), query.end(), [](const auto& field) {
-               return rapid::config::sameName(field.first, "order") && field.second == "lifo";
+               return rapid::config::sameName(field.first, "order") &&
+                      rapid::config::sameName(field.second, "lifo");
            });
 }
 

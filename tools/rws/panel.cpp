@@ -75,8 +75,8 @@ void Panel::addTo(Router& router, Subscribables& subscribables) {
     };
     show(Dialect::V1, "ctrlstate", kMotors);
     show(Dialect::V2, "ctrl-state", kMotors);
+    show(Dialect::V1, "opmode", kMode);
     for (const Dialect dialect : {Dialect::V1, Dialect::V2}) {
-        show(dialect, "opmode", kMode);
         show(dialect, "speedratio", kSpeed);
         show(dialect, "coldetstate", kCollision);
     }
@@ -123,6 +123,13 @@ void Panel::addMode(Router& router) {
     addOrder(router, "/rw/panel/opmode", "unlock", "unlock", [this](const Request&) {
         locked_ = false;
         return Reply::done();
+    });
+    // Clients of RWS 2.0 take the first of several entries: the second one leads to the lock.
+    router.get(Dialect::V2, "/rw/panel/opmode", [this](const Request&) {
+        Document document;
+        document.entries.push_back(entryOf(controller_, kMode, ""));
+        document.add("pnl-opmode-lockstate-li", "lock-state").self = "/rw/panel/opmode/lock-state";
+        return Reply::of(std::move(document));
     });
     router.get(Dialect::V2, "/rw/panel/opmode/lock-state", [this](const Request&) {
         Document document;
@@ -215,10 +222,11 @@ Reply Panel::lock(const Request& request) {
 
 Reply Panel::restart(const Request& request) {
     const std::string mode = request.form.text("restart-mode");
-    if (mode == "restart" || mode.empty()) return replyTo(controller_.restart(service::RestartMode::Warm));
+    if (mode == "restart" || mode.empty())
+        return replyTo(controller_.orderRestart(service::RestartMode::Warm));
     if (mode != "istart" && mode != "pstart" && mode != "bstart")
         return badParameter("restart-mode", "restart, istart, pstart or bstart");
-    return replyTo(controller_.restart(service::RestartMode::Cold));
+    return replyTo(controller_.orderRestart(service::RestartMode::Cold));
 }
 
 Reply Panel::setChain(const Request& request, void (service::VirtualController::*order)(bool)) {

@@ -23,7 +23,7 @@ PlantServices::PlantServices(service::VirtualController& controller, const Acces
       configurationPages_(controller, configuration_, volumes_, progress_, access),
       eventLog_(journal_, volumes_, progress_), system_(controller, volumes_), platform_(controller),
       files_(volumes_), backups_(controller, configuration_, volumes_, progress_) {
-    for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "SYSTEM"})
+    for (const char* volume : {"HOME", "BACKUP", "TEMP", "RAMDISK", "DATA", "SYSTEM"})
         if (const std::string folder = controller.folderOf(volume); !folder.empty())
             (void)volumes_.add(volume, folder);
 }

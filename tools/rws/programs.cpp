@@ -21,6 +21,11 @@ using rapid::config::sameName;
 
 constexpr const char* kPath = "/rw/rapid/tasks/{task}/program";
 
+bool isFileName(const std::string& name) {
+    return !name.empty() && name.size() <= 80 && name.find_first_of("/\\:\n\r") == std::string::npos &&
+           name.find('\0') == std::string::npos && name.front() != '.';
+}
+
 std::string programFile(const std::vector<std::string>& files) {
     std::string text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\n<Program>\n";
     for (const std::string& file : files)
@@ -128,29 +133,33 @@ Reply Programs::load(const Request& request) {
     return replyTo(refusal, ReturnCode::Rejected, 400);
 }
 
-/// Into a folder, which may not exist yet: each module and NAME.pgf.
+/// Into a folder, which may not exist yet: each module and NAME.pgf. A name of the request may have its extension.
 Reply Programs::save(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string given = request.form.text("path");
+    std::string name = fieldOf(request, "name");
+    if (name.empty()) name = nameOf(*task);
+    if (!isFileName(name)) return badParameter("name", "a name that a file may have");
+    if (!sameName(fs::path(name).extension().string(), ".pgf")) name += ".pgf";
     const std::optional<VolumePath> folder = volumePath(controller_, given);
     std::error_code code;
     if (!folder || (fs::create_directories(folder->host, code), !fs::is_directory(folder->host, code)))
         return Reply::refuse(ReturnCode::NoLoadPath, given + " is not a folder of a volume");
     const char* extension = request.dialect == Dialect::V1 ? ".mod" : ".modx";
     std::vector<std::string> files;
-    for (const std::string& name : programModules(*task)) {
+    for (const std::string& each : programModules(*task)) {
         std::string text;
         const auto* module =
-            controller_.core().tables().findModule(static_cast<int32_t>(task->index()), name);
-        if (module == nullptr || !controller_.moduleText(*task, name, text)) continue;
-        files.push_back(name + extension);
+            controller_.core().tables().findModule(static_cast<int32_t>(task->index()), each);
+        if (module == nullptr || !controller_.moduleText(*task, each, text)) continue;
+        files.push_back(each + extension);
         const std::string file = (fs::path(folder->host) / files.back()).string();
         if (const std::string problem = saveModule(controller_.core(), *task, *module, text, file);
             !problem.empty())
             return Reply::refuse(ReturnCode::Rejected, problem);
     }
-    const std::string file = (fs::path(folder->host) / (nameOf(*task) + ".pgf")).string();
+    const std::string file = (fs::path(folder->host) / name).string();
     const std::string problem = rapid::config::replaceFile(file, programFile(files));
     return problem.empty() ? Reply::done() : Reply::refuse(ReturnCode::Rejected, problem);
 }
@@ -168,10 +177,7 @@ Reply Programs::setName(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string name = request.form.text("name");
-    const bool isName = !name.empty() && name.size() <= 80 &&
-                        name.find_first_of("/\\:\n\r") == std::string::npos &&
-                        name.find('\0') == std::string::npos && name.front() != '.';
-    if (!isName) return badParameter("name", "a name that a file may have");
+    if (!isFileName(name)) return badParameter("name", "a name that a file may have");
     names_[task->name()] = name;
     return Reply::done();
 }

@@ -2,6 +2,7 @@
 
 #include "tools/http/url.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 
@@ -26,6 +27,14 @@ std::size_t sequenceLength(std::string_view text) {
 }
 
 constexpr std::size_t kLargestEvent = 1024; // bytes
+constexpr const char* kPlainInPath = "-._~/$:;,@";
+constexpr std::string_view kFiles = "/fileservice", kIoSystem = "/rw/iosystem",
+                           kMotionSystem = "/rw/motionsystem", kConfiguration = "/rw/cfg";
+/// Services whose folder is the base of all their resources.
+constexpr std::array<std::string_view, 7> kServices = {"/rw/mastership", "/rw/elog",    "/users",      "/uas",
+                                                       kIoSystem,        kMotionSystem, kConfiguration};
+/// Those whose base clients put in front of the addresses themselves.
+constexpr std::array kRelative = {kFiles, kIoSystem, kMotionSystem, kConfiguration};
 
 bool isControl(char c) {
     const auto code = static_cast<unsigned char>(c);
@@ -46,10 +55,10 @@ std::string typeAttribute(const Entry& entry, std::string_view name) {
     return {};
 }
 
-std::string listItem(const Entry& entry, bool isTyped = false) {
+std::string listItem(const Entry& entry, std::string_view folder, bool isTyped = false) {
     std::string text =
         fmt::format(R"(<li class="{}" title="{}">)", xmlAttribute(entry.type), xmlAttribute(entry.title));
-    if (!entry.self.empty()) text += anchor(entry.self, "self");
+    if (!entry.self.empty()) text += anchor(shownAddress(entry.self, folder), "self");
     for (const auto& [rel, href] : entry.links)
         text += anchor(href, rel);
     for (const auto& [name, value] : entry.values)
@@ -59,7 +68,7 @@ std::string listItem(const Entry& entry, bool isTyped = false) {
     if (!entry.nestedName.empty() && !entry.isNestedOnlyInJson) {
         text += "<ul>";
         for (const Entry& nested : entry.nested)
-            text += listItem(nested, isTyped);
+            text += listItem(nested, folder, isTyped);
         text += "</ul>";
     }
     return text + "</li>";
@@ -116,10 +125,22 @@ std::string baseFolder(std::string_view path) {
         return path.substr(0, root.size()) == root &&
                (path.size() == root.size() || path[root.size()] == '/');
     };
-    for (const std::string_view root : {"/rw/mastership", "/rw/elog", "/users", "/uas"})
+    if (isIn(kFiles)) {
+        std::string folder = http::encodePercent(path, "-._~/$");
+        return folder.ends_with('/') ? folder : folder + '/';
+    }
+    for (const std::string_view root : kServices)
         if (isIn(root)) return std::string(root) + "/";
     if (path.size() > 1 && isIn("/rw/rapid") && path != "/rw/rapid") return "/rw/rapid/";
     return isIn("/rw") && path != "/rw" ? "/rw/" : "/";
+}
+
+std::string shownAddress(std::string_view address, std::string_view folder) {
+    const bool isRelative = std::any_of(kRelative.begin(), kRelative.end(), [&](std::string_view root) {
+        return folder.starts_with(root) && folder.substr(root.size()).starts_with('/');
+    });
+    if (isRelative && address.starts_with(folder)) address.remove_prefix(folder.size());
+    return std::string(address);
 }
 
 std::string contentTypeOf(Form form, Dialect dialect) {
@@ -128,20 +149,24 @@ std::string contentTypeOf(Form form, Dialect dialect) {
 }
 
 std::string nextPage(const Document& document, const RenderContext& context) {
-    return document.next.starts_with('?') ? context.path + document.next : document.next;
+    const std::string next = document.next.starts_with('?') ? context.path + document.next : document.next;
+    const std::string folder = baseFolder(context.path), path = folder.substr(0, folder.size() - 1) + '?';
+    if (folder.starts_with(kFiles) && next.starts_with(path)) return next.substr(path.size() - 1);
+    return shownAddress(next, folder);
 }
 
 std::string renderXhtml(const Document& document, const RenderContext& context, bool isTyped) {
     std::string body = R"(<div class="state">)";
-    body += anchor(document.self.empty() ? http::encodePercent(context.path, "-._~/$:;,@") : document.self,
+    body += anchor(document.self.empty() ? http::encodePercent(context.path, kPlainInPath) : document.self,
                    "self");
     for (const auto& [rel, href] : document.links)
         body += anchor(href, rel);
     if (const std::string next = nextPage(document, context); !next.empty()) body += anchor(next, "next");
     body += "<ul>";
+    const std::string folder = baseFolder(context.path);
     for (const Entry& entry : document.entries)
-        body += listItem(entry, isTyped);
-    return page(context.base + baseFolder(context.path), body + "</ul></div>");
+        body += listItem(entry, folder, isTyped);
+    return page(context.base + folder, body + "</ul></div>");
 }
 
 std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context) {
@@ -156,7 +181,8 @@ std::string renderEvent(const Entry& entry, std::string_view href, std::string_v
     event.self.clear();
     event.links.emplace_back("self", href); // after the others: some clients read the first anchor
     const auto render = [&] {
-        return page(fmt::format("{}/", base), R"(<div class="state"><ul>)" + listItem(event) + "</ul></div>");
+        return page(fmt::format("{}/", base),
+                    R"(<div class="state"><ul>)" + listItem(event, "/") + "</ul></div>");
     };
     std::string text = render();
     if (text.size() < kLargestEvent) return text;

@@ -29,14 +29,16 @@ std::string renderFailure(const Failure& failure, Form form, const RenderContext
 /// The same in one form; `isTyped`: as Form::TypedXhtml.
 std::string renderXhtml(const Document& document, const RenderContext& context, bool isTyped = false);
 std::string renderXhtmlFailure(const Failure& failure, const RenderContext& context);
-/// The address of the next page, "" when there is none. A query alone is for the same path; other relative addresses stay, because some
-/// clients put the folder of the base in front of them.
+/// The address of the next page as it is shown, "" when there is none. A query alone is for the same path; other relative addresses stay.
 std::string nextPage(const Document& document, const RenderContext& context);
 /// "application/xhtml+xml;v=2.0"
 std::string contentTypeOf(Form form, Dialect dialect);
 
 /// The folder that relative addresses of a resource count from, with '/' at both ends: "/rw/rapid/".
 std::string baseFolder(std::string_view path);
+/// How a page shows an address of its own server: without the folder of the base where clients put that folder in front of every
+/// address (files, I/O and motion systems, configuration), otherwise as it is.
+std::string shownAddress(std::string_view address, std::string_view folder);
 /// Text for an element: markup escaped, bytes that are not UTF-8 and characters that XML cannot hold replaced by '?'. Quotes stay as they
 /// are: clients that search the text with regular expressions expect "text" of RAPID so.
 std::string xmlText(std::string_view text);

@@ -13,9 +13,17 @@ Json href(std::string_view text) {
     return {{"href", cleanText(text)}};
 }
 
-Json objectOf(const Entry& entry) {
+/// RWS 1.0 adds "?json=1" to relative addresses, which lead to JSON again; some clients replace it with what they subscribe to.
+std::string selfOf(const Entry& entry, const RenderContext& context) {
+    std::string self = shownAddress(entry.self, baseFolder(context.path));
+    const bool isRelative = !self.starts_with('/') && self.find_first_of(":;?") == std::string::npos;
+    if (context.dialect == Dialect::V1 && isRelative) self += "?json=1";
+    return self;
+}
+
+Json objectOf(const Entry& entry, const RenderContext& context) {
     Json links = Json::object();
-    if (!entry.self.empty()) links["self"] = href(entry.self);
+    if (!entry.self.empty()) links["self"] = href(selfOf(entry, context));
     for (const auto& [rel, target] : entry.links)
         links[rel] = href(target);
     Json object = Json::object();
@@ -27,7 +35,7 @@ Json objectOf(const Entry& entry) {
     if (!entry.nestedName.empty()) {
         Json list = Json::array();
         for (const Entry& nested : entry.nested)
-            list.push_back(objectOf(nested));
+            list.push_back(objectOf(nested, context));
         object[entry.nestedName] = std::move(list);
     }
     return object;
@@ -55,7 +63,7 @@ Json linksOf(const Document& document, const RenderContext& context) {
 std::string renderJson(const Document& document, const RenderContext& context) {
     Json entries = Json::array();
     for (const Entry& entry : document.entries)
-        entries.push_back(objectOf(entry));
+        entries.push_back(objectOf(entry, context));
     Json json = {{"_links", linksOf(document, context)}};
     if (context.dialect == Dialect::V1) {
         json["_embedded"] = {{"_state", std::move(entries)}};

@@ -210,9 +210,9 @@ Reply System::setClock(const Request& request) {
 Reply System::restart(const Request& request) {
     const std::string mode = fieldOf(request, "restart-mode");
     for (const char* warm : {"", "restart", "wstart"})
-        if (sameName(mode, warm)) return replyTo(controller_.restart(service::RestartMode::Warm));
+        if (sameName(mode, warm)) return replyTo(controller_.orderRestart(service::RestartMode::Warm));
     for (const char* cold : {"istart", "pstart", "bstart", "xstart"})
-        if (sameName(mode, cold)) return replyTo(controller_.restart(service::RestartMode::Cold));
+        if (sameName(mode, cold)) return replyTo(controller_.orderRestart(service::RestartMode::Cold));
     return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
 }
 

@@ -2,12 +2,14 @@
 
 #include "config/letter_case.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/request_values.h"
 #include "tools/rws/state_watch.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace rapidc::rws {
 
@@ -93,6 +95,7 @@ void Users::addTo(Router& router, Subscribables& subscribables) {
         privileged_.erase(request.session->number);
         return Reply::done();
     });
+    router.action("/users/rmmp", "set", [this](const Request& request) { return setPrivilege(request); });
     addGrants(router);
 }
 
@@ -222,6 +225,23 @@ Reply Users::requestPrivilege(const Request& request) {
     privileged_.insert(request.session->number);
     names_[request.session->number] = request.session->user;
     return Reply::done(202);
+}
+
+/// As somebody at the pendant does: the user with that number gets the privilege, or loses it.
+Reply Users::setPrivilege(const Request& request) {
+    const std::string level = request.form.text("privilege");
+    const auto is = [&](const char* each) { return rapid::config::sameName(each, level); };
+    if (!is("modify") && !is("exec") && !is("deny")) return badParameter("privilege", "modify, exec or deny");
+    const auto number = wholeIn(request.form.text("uid"), 1, std::numeric_limits<int64_t>::max());
+    const auto session = number ? sessions_.find(static_cast<uint64_t>(*number)) : sessions_.end();
+    if (session == sessions_.end()) return badParameter("uid", "the userid of GET /users/rmmp");
+    if (is("deny")) {
+        privileged_.erase(session->first);
+    } else {
+        privileged_.insert(session->first);
+        names_[session->first] = session->second->user;
+    }
+    return Reply::done();
 }
 
 Reply Users::privilege(const Request& request) const {

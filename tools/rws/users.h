@@ -32,6 +32,7 @@ class Users {
     Reply list(const Request& request) const;
     Reply loginInfo(const Request& request) const;
     Reply requestPrivilege(const Request& request);
+    Reply setPrivilege(const Request& request);
     Reply privilege(const Request& request) const;
     Reply poll(const Request& request) const;
     void addGrants(Router& router);

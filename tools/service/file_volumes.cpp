@@ -246,4 +246,16 @@ FileResult FileVolumes::copy(const std::string& path, const std::string& name, b
     return done();
 }
 
+FileResult FileVolumes::copyTo(const std::string& from, const std::string& to, bool overwrite) const {
+    FileEntry source, target;
+    if (FileResult found = describe(from, source); !found.isDone()) return found;
+    if (source.isFolder) return {FileProblem::Refused, fmt::format("{} is a folder: give a bare name", from)};
+    if (describe(to, target).isDone() && (!overwrite || target.isFolder))
+        return {FileProblem::Exists, fmt::format("{} exists already", to)};
+    std::string bytes;
+    if (FileResult found = read(from, bytes); !found.isDone()) return found;
+    bool isNew = false;
+    return write(to, bytes, isNew);
+}
+
 } // namespace rapidc::service

@@ -61,6 +61,8 @@ class FileVolumes {
     /// Within its folder; `name` is a bare name.
     FileResult rename(const std::string& path, const std::string& name) const;
     FileResult copy(const std::string& path, const std::string& name, bool overwrite) const;
+    /// Of a file, to a path of any volume.
+    FileResult copyTo(const std::string& from, const std::string& to, bool overwrite) const;
     /// The path on the host, for parts of the controller that take one.
     FileResult hostPath(const std::string& path, std::string& host) const;
 

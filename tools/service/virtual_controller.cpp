@@ -271,6 +271,15 @@ Refusal VirtualController::restart(RestartMode mode) {
     return {};
 }
 
+Refusal VirtualController::orderRestart(RestartMode mode) {
+    if (mode == RestartMode::Warm && !isConfigurationChanged_) return restart(mode);
+    post([this, mode] {
+        if (const Refusal refusal = restart(mode); !refusal.empty())
+            core_->log().write(rt::EventId::PowerRefused, nullptr, {"Restart", refusal});
+    });
+    return {};
+}
+
 Refusal VirtualController::restore(const std::string& backup) {
     Inputs before = settings_.inputs;
     settings_.inputs.paths = {backup};

@@ -140,6 +140,9 @@ class VirtualController {
     // ---- The controller itself -------------------------------------------------------------------------------
     /// Takes effect after the command in progress; commands posted later wait for the new controller.
     Refusal restart(RestartMode mode);
+    /// The same as a command of its own when programs must be compiled first, which takes long: the caller can answer before. What keeps
+    /// the controller from restarting is in the event log then.
+    Refusal orderRestart(RestartMode mode);
     /// An order has been given that replaces the present controller.
     bool isBeingReplaced() const { return succession_ != nullptr; }
     /// The orders of system inputs.

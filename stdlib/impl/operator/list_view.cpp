@@ -137,6 +137,7 @@ Status rt_UIListView(TaskCore* task, float* result, float* Result, const String*
     if (!(standard >= 0 && standard <= static_cast<float>(ListItemsDim1)))
         return lib::failWith(task, err::ERR_ARGVALERR, "DefaultIndex is {}; the list has {} items",
                              static_cast<double>(standard), ListItemsDim1);
+    if (standard > 0) dialog.initial = std::to_string(static_cast<int>(standard));
     Pages pages(dialog, static_cast<std::size_t>(standard));
     Chosen chosen;
     const auto accept = [&](const std::string& answer) {

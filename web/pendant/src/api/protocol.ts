@@ -113,6 +113,7 @@ export interface Dialog {
     icon: string;
     choices: string[];
     items: string[];
+    /** What an entry begins with; of a list: the number of the item that OK alone takes. */
     initial: string;
     minimum?: number;
     maximum?: number;

@@ -37,7 +37,8 @@ export class DialogLayer {
             const card = this.card(dialog);
             this.cards.set(dialog.id, card);
             this.element.append(card);
-            card.querySelector<HTMLElement>("input, .list-item, .dialog-buttons button")?.focus();
+            const first = card.querySelector<HTMLElement>('[aria-current="true"]') ?? card.querySelector<HTMLElement>("input, .list-item, .dialog-buttons button");
+            first?.focus();
         }
     }
 
@@ -66,7 +67,15 @@ export class DialogLayer {
             return;
         }
         if (dialog.kind === "list") {
-            const items = dialog.items.map((text, index) => h("button", { class: "list-item", text, attrs: { type: "button" }, on: { click: () => this.answer(dialog, { item: index + 1 }) } }));
+            const standard = Number(dialog.initial);
+            const items = dialog.items.map((text, index) =>
+                h("button", {
+                    class: "list-item",
+                    text,
+                    attrs: { type: "button", "aria-current": index + 1 === standard ? "true" : undefined },
+                    on: { click: () => this.answer(dialog, { item: index + 1 }) },
+                }),
+            );
             body.append(h("div", { class: "dialog-list" }, ...items));
         }
         if (choose.length > 0) replaceChildren(buttons, ...choose);

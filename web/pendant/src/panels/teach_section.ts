@@ -38,7 +38,7 @@ export class TeachSection {
         const { data } = await this.model.connection.request<{ data: DataItem[] }>("data.list", { task, type: this.kind.value });
         const writable = data.filter(({ readOnly, dims }) => !readOnly && dims.length === 0);
         const options = writable.map(({ path, name, module }) => ({ value: path, label: `${name}  ${module}` }));
-        setOptions(this.targets, options.length > 0 ? options : [{ value: "", label: "None that can be changed" }]);
+        setOptions(this.targets, options.length > 0 ? options : [{ value: "", label: "None can be changed" }]);
         this.targets.disabled = this.teach.disabled = options.length === 0;
         this.teach.title = options.length === 0 ? "ModPos in the program changes constants" : "";
     }

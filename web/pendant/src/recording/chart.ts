@@ -97,7 +97,7 @@ export class Chart {
             pen.fillText(short(value), padding.left - 6, y(value));
         }
         pen.textAlign = "center";
-        for (const t of ticks(this.from, this.to, Math.max(2, Math.floor(width / 90)))) pen.fillText(`${short(t)} s`, x(t), height - 8);
+        for (const t of ticks(0, this.to - this.from, Math.max(2, Math.floor(width / 90)))) pen.fillText(`${short(t)} s`, x(this.from + t), height - 8);
     }
 
     /** At most two points per pixel: the least and the most between its edges. */

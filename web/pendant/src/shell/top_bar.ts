@@ -15,6 +15,8 @@ const motorTexts: Record<string, string> = {
     failure: "System failure",
 };
 
+const clockPeriod = 200; // ms
+
 /** State of the controller and what an operator does most: motors, mode, start, stop, steps, speed, emergency stop. */
 export class TopBar {
     readonly element: HTMLElement;
@@ -27,6 +29,8 @@ export class TopBar {
     private readonly stop: HTMLButtonElement;
     private readonly whenStopped: HTMLButtonElement[];
     private readonly emergency: HTMLButtonElement;
+    /** The time that was reported last, and when, in ms of this computer: between reports the clock is advanced here. */
+    private reported = { t: 0, at: 0 };
     private readonly speed = h("input", { class: "slider", attrs: { type: "range", min: 1, max: 100, "aria-label": "Speed in per cent" } });
     private readonly speedText = h("output", { class: "speed-text" });
     private readonly mode: Segmented<"auto" | "manual">;
@@ -78,17 +82,27 @@ export class TopBar {
             setText(this.controller, state.name);
             setText(this.version, `RobotWare ${state.robotWare}`);
             this.showPanel(state.panel);
-            this.showTime(state.time.t);
+            this.takeTime(state.time.t);
         });
         this.model.on("panel", (panel) => this.showPanel(panel));
         this.model.on("task", () => this.model.state && this.showPanel(this.model.state.panel));
-        this.model.on("time", (time) => this.showTime(time.t));
-        this.model.on("motion", (motion) => this.showTime(motion.t));
+        this.model.on("time", (time) => this.takeTime(time.t));
+        this.model.on("motion", (motion) => this.takeTime(motion.t));
+        setInterval(() => this.showTime(), clockPeriod);
         this.speed.addEventListener("input", () => setText(this.speedText, `${this.speed.value} %`));
         this.speed.addEventListener("change", () => this.send("panel.speed", { percent: Number(this.speed.value) }));
     }
 
-    private showTime(t: number): void {
+    private takeTime(t: number): void {
+        this.reported = { t, at: performance.now() };
+        this.showTime();
+    }
+
+    /** Nothing is reported while nothing moves, but virtual time continues; at full speed it is known only when it is reported. */
+    private showTime(): void {
+        const time = this.model.state?.time;
+        const passed = time?.running ? ((performance.now() - this.reported.at) / 1000) * (time.pace / 100) : 0;
+        const t = this.reported.t + passed;
         const minutes = Math.floor(t / 60);
         setText(this.clock, `${String(minutes).padStart(2, "0")}:${(t - minutes * 60).toFixed(1).padStart(4, "0")}`);
     }
