@@ -104,8 +104,8 @@ class Wholes {
         auto* select = llvm::dyn_cast<llvm::SelectInst>(value);
         if (!select || select->getType()->isVectorTy()) return std::nullopt;
         const auto a = wholeConstant(select->getTrueValue()), b = wholeConstant(select->getFalseValue());
-        constexpr unsigned kSmall = 16;
-        if (!a || !b || !fits(a->range, kSmall) || !fits(b->range, kSmall)) return std::nullopt;
+        constexpr unsigned kStepBits = 16;
+        if (!a || !b || !fits(a->range, kStepBits) || !fits(b->range, kStepBits)) return std::nullopt;
         llvm::IRBuilder<> builder(select);
         const auto integer = [&](const Whole& whole) {
             return builder.getInt32(static_cast<uint32_t>(whole.range.getSingleElement()->getSExtValue()));

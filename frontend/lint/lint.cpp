@@ -163,7 +163,7 @@ class TaskLint {
              const Errors& errors, const SharedFiles& shared, const std::set<std::string>& configured,
              Reporter& reporter)
         : task_(task), predefined_(predefined), errors_(errors), shared_(shared), reporter_(reporter),
-          walker_(program, task, predefined, reporter, facts_), configured_(configured) {}
+          walker_(program, task, reporter, facts_), configured_(configured) {}
 
     /// Everything that needs the inside of the routines.
     void file(std::span<Module* const> modules) {

@@ -29,9 +29,8 @@ struct MoveParams {
 // Size: one walk over a routine collects the facts of all warnings, because a walk for each would cost the check its speed.
 class Walker {
   public:
-    Walker(const sema::CheckedProgram& program, const sema::Task& task, const Predefined& predefined,
-           Reporter& reporter, TaskFacts& facts)
-        : program_(program), task_(task), predefined_(predefined), reporter_(reporter), facts_(facts) {}
+    Walker(const sema::CheckedProgram& program, const sema::Task& task, Reporter& reporter, TaskFacts& facts)
+        : program_(program), task_(task), reporter_(reporter), facts_(facts) {}
 
     void routine(const sema::RoutineSymbol& routine);
 
@@ -141,7 +140,6 @@ class Walker {
 
     const sema::CheckedProgram& program_;
     const sema::Task& task_;
-    const Predefined& predefined_;
     Reporter& reporter_;
     TaskFacts& facts_;
     std::unordered_map<const sema::RoutineSymbol*, MoveParams> moves_;

@@ -10,13 +10,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::pair<const char*, SavedLocal::Kind> kKinds[] = {
+constexpr std::pair<const char*, SavedLocal::Kind> kLocalKinds[] = {
     {"value", SavedLocal::Kind::Value},   {"absent", SavedLocal::Kind::Absent},
     {"object", SavedLocal::Kind::Object}, {"copy", SavedLocal::Kind::Copy},
     {"fresh", SavedLocal::Kind::Fresh},
 };
 
-Json jsonOf(const SourcePlace& place) {
+Json imageOf(const SourcePlace& place) {
     return {{"module", place.module},
             {"routine", place.routine},
             {"file", place.file},
@@ -34,8 +34,8 @@ SourcePlace placeFrom(const Json& json) {
     return place;
 }
 
-Json jsonOf(const SavedLocal& local) {
-    Json json = {{"kind", kKinds[static_cast<std::size_t>(local.kind)].first}, {"type", local.type}};
+Json imageOf(const SavedLocal& local) {
+    Json json = {{"kind", kLocalKinds[static_cast<std::size_t>(local.kind)].first}, {"type", local.type}};
     if (!local.value.empty()) json["value"] = local.value;
     if (!local.object.empty()) {
         json["object"] = local.object;
@@ -47,7 +47,7 @@ Json jsonOf(const SavedLocal& local) {
 SavedLocal localFrom(const Json& json) {
     SavedLocal local;
     const auto word = json.at("kind").get<std::string>();
-    for (const auto& [name, kind] : kKinds)
+    for (const auto& [name, kind] : kLocalKinds)
         if (word == name) local.kind = kind;
     json.at("type").get_to(local.type);
     if (json.contains("value")) json.at("value").get_to(local.value);
@@ -58,10 +58,10 @@ SavedLocal localFrom(const Json& json) {
     return local;
 }
 
-Json jsonOf(const SavedFrame& frame) {
+Json imageOf(const SavedFrame& frame) {
     Json locals = Json::array();
     for (const SavedLocal& local : frame.locals)
-        locals.push_back(jsonOf(local));
+        locals.push_back(imageOf(local));
     return {{"module", frame.module},       {"routine", frame.routine}, {"text", frame.textHash},
             {"statement", frame.statement}, {"failed", frame.failed},   {"locals", locals}};
 }
@@ -78,7 +78,7 @@ SavedFrame frameFrom(const Json& json) {
     return frame;
 }
 
-Json jsonOf(const ErrorMemory& errors) {
+Json imageOf(const ErrorMemory& errors) {
     Json retries = Json::array();
     for (const ErrorMemory::Retries& entry : errors.retries) {
         Json counts = Json::array();
@@ -92,13 +92,13 @@ Json jsonOf(const ErrorMemory& errors) {
     Json json = {{"errno", errors.errorNumber},
                  {"intno", errors.interruptNumber},
                  {"text", errors.text},
-                 {"place", jsonOf(errors.place)},
+                 {"place", imageOf(errors.place)},
                  {"retries", retries}};
     if (errors.handled)
         json["handled"] = {{"depth", errors.handled->depth},
                            {"number", errors.handled->number},
                            {"text", errors.handled->text},
-                           {"place", jsonOf(errors.handled->place)}};
+                           {"place", imageOf(errors.handled->place)}};
     return json;
 }
 
@@ -136,8 +136,8 @@ ErrorMemory errorsFrom(const Json& json) {
 Json jsonOf(const CallChain& chain) {
     Json frames = Json::array();
     for (const SavedFrame& frame : chain.frames)
-        frames.push_back(jsonOf(frame));
-    return {{"frames", frames}, {"afterStop", chain.afterStop}, {"errors", jsonOf(chain.errors)}};
+        frames.push_back(imageOf(frame));
+    return {{"frames", frames}, {"afterStop", chain.afterStop}, {"errors", imageOf(chain.errors)}};
 }
 
 CallChain chainFrom(const Json& json) {

@@ -15,7 +15,7 @@ constexpr Time kPulse = 20 * kMillisecond;       // of signals that report somet
 constexpr Time kShowPeriod = 100 * kMillisecond; // of position signals while an object is connected
 constexpr double kCounterRange = 4294967296.0;   // 32 bits
 
-constexpr ConveyorSignal kSignals[] = {
+constexpr ConveyorSignal kConveyorSignals[] = {
     {"ObjectsInQ", SignalType::GI, 16},  {"CntFromEnc", SignalType::GI, 32},
     {"CntToEnc", SignalType::GO, 32},    {"Counts", SignalType::GI, 32},
     {"Position", SignalType::AI, 1},     {"Speed", SignalType::AI, 1},
@@ -31,7 +31,7 @@ constexpr ConveyorSignal kSignals[] = {
 } // namespace
 
 std::span<const ConveyorSignal> allConveyorSignals() {
-    return kSignals;
+    return kConveyorSignals;
 }
 
 /// The connected object. It outlives the connection as long as movements refer to it.
@@ -78,7 +78,7 @@ Conveyor::~Conveyor() {
 // ---- Signals ---------------------------------------------------------------------------------------------------------
 
 void Conveyor::addSignals() {
-    for (const ConveyorSignal& kind : kSignals)
+    for (const ConveyorSignal& kind : kConveyorSignals)
         addSignal(kind.name, kind.type, kind.bits);
 }
 

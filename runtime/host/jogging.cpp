@@ -9,8 +9,9 @@ namespace rt {
 
 namespace {
 
-constexpr Time kPeriod = motion::kModifierPeriod;
-constexpr double kSeconds = static_cast<double>(kPeriod) / 1e9;
+using motion::kModifierPeriod;
+using motion::kModifierSeconds;
+
 constexpr double kRampTime = 0.25; // s from rest to a share of 1
 constexpr double kRamp = 1 / kRampTime;
 
@@ -121,7 +122,7 @@ void Jogging::begin() {
     axisSpeed_ = order_.isLinear() ? 0 : commonSpeed();
     hasStored_ = motion_.system().storePath();
     now_ = motion_.system().currentJoints();
-    if (!hasStored_ || !after(kSeconds * kSeconds * kRamp)) {
+    if (!hasStored_ || !after(kModifierSeconds * kModifierSeconds * kRamp)) {
         if (limit_.empty()) limit_ = "the robot cannot be moved now";
         finish();
         return;
@@ -136,7 +137,7 @@ void Jogging::begin() {
     }
     const bool lasts = order_.increment && !order_.goal;
     until_ = lasts ? kNever : scheduler_.now() + order_.holdTime;
-    event_ = scheduler_.after(kPeriod, [this] { step(); });
+    event_ = scheduler_.after(kModifierPeriod, [this] { step(); });
 }
 
 void Jogging::finish() {
@@ -146,7 +147,7 @@ void Jogging::finish() {
     motion::JointTarget rest = now_;
     rest.robax = motion::Joints::zeros(now_.robax.size());
     if (hasStored_) {
-        (void)motion_.system().leadTo(now_, rest, kPeriod); // at rest
+        (void)motion_.system().leadTo(now_, rest, kModifierPeriod); // at rest
         (void)motion_.system().restorePath();
         hasStored_ = false;
     }
@@ -160,14 +161,14 @@ double Jogging::speedRequested(double dt) const {
 }
 
 void Jogging::step() {
-    double wanted = speedRequested(kSeconds);
-    const double braking = share_ * share_ / (2 * kRamp) + 2 * share_ * kSeconds;
+    double wanted = speedRequested(kModifierSeconds);
+    const double braking = share_ * share_ / (2 * kRamp) + 2 * share_ * kModifierSeconds;
     if (wanted > 0 && share_ > 0 && !after(braking)) wanted = 0; // a limit comes nearer
     const double before = share_;
-    share_ += std::clamp(wanted - share_, -kRamp * kSeconds, kRamp * kSeconds);
-    double way = share_ * kSeconds;
-    const bool isLast = way >= remaining_ || (order_.increment && wanted < kRamp * kSeconds && before > 0 &&
-                                              remaining_ < kSeconds);
+    share_ += std::clamp(wanted - share_, -kRamp * kModifierSeconds, kRamp * kModifierSeconds);
+    double way = share_ * kModifierSeconds;
+    const bool isLast = way >= remaining_ || (order_.increment && wanted < kRamp * kModifierSeconds &&
+                                              before > 0 && remaining_ < kModifierSeconds);
     if (isLast) way = remaining_;
     const bool isAtRest = share_ <= 0 || isLast;
     if (way > 0 && std::isfinite(way)) {
@@ -175,17 +176,17 @@ void Jogging::step() {
         if (!next) return finish();
         motion::JointTarget speed = *next;
         for (std::size_t i = 0; i < speed.robax.size(); ++i)
-            speed.robax[i] = (next->robax[i] - now_.robax[i]) / kSeconds;
+            speed.robax[i] = (next->robax[i] - now_.robax[i]) / kModifierSeconds;
         for (std::size_t i = 0; i < speed.extax.size(); ++i)
             if (motion::isConnected(speed.extax[i]))
-                speed.extax[i] = (next->extax[i] - now_.extax[i]) / kSeconds;
+                speed.extax[i] = (next->extax[i] - now_.extax[i]) / kModifierSeconds;
         now_ = *next;
         remaining_ -= way;
-        if (!motion_.system().leadTo(now_, speed, kPeriod + kPeriod / 2)) return finish();
+        if (!motion_.system().leadTo(now_, speed, kModifierPeriod + kModifierPeriod / 2)) return finish();
         motion_.refresh();
     }
     if (!isAtRest) {
-        event_ = scheduler_.after(kPeriod, [this] { step(); });
+        event_ = scheduler_.after(kModifierPeriod, [this] { step(); });
         return;
     }
     const std::optional<JogOrder> next = std::exchange(next_, std::nullopt);
@@ -300,7 +301,7 @@ bool Jogging::isWithin(const motion::JointTarget& joints) {
     if (!order_.isLinear()) return true;
     for (std::size_t i = 0; i < joints.robax.size(); ++i) {
         // near a singularity the wrist would have to be faster than it can
-        const double most = motion_.model().maxSpeed[i] * std::max(kSeconds, share_ * kRampTime);
+        const double most = motion_.model().maxSpeed[i] * std::max(kModifierSeconds, share_ * kRampTime);
         if (std::fabs(joints.robax[i] - now_.robax[i]) <= most) continue;
         limit_ =
             fmt::format("axis {} would be too fast: the arm is near a singularity", kinematics.axisNumber(i));

@@ -7,9 +7,9 @@
 namespace rt {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 
-struct sigaction previous[std::size(kSignals)];
+struct sigaction previous[std::size(kStopSignals)];
 volatile std::sig_atomic_t noted = 0;
 
 void killBy(int signal) {
@@ -33,15 +33,15 @@ StopSignals::StopSignals() {
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-        sigaction(kSignals[i], nullptr, &previous[i]);
-        if (previous[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+    for (std::size_t i = 0; i < std::size(kStopSignals); ++i) {
+        sigaction(kStopSignals[i], nullptr, &previous[i]);
+        if (previous[i].sa_handler != SIG_IGN) sigaction(kStopSignals[i], &action, nullptr);
     }
 }
 
 StopSignals::~StopSignals() {
-    for (std::size_t i = 0; i < std::size(kSignals); ++i)
-        sigaction(kSignals[i], &previous[i], nullptr);
+    for (std::size_t i = 0; i < std::size(kStopSignals); ++i)
+        sigaction(kStopSignals[i], &previous[i], nullptr);
     noted = 0;
 }
 

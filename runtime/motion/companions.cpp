@@ -7,11 +7,11 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-12;
+constexpr double kLevel = 1e-12;
 
 double ratioOn(const Route& leader, const Route& own, std::size_t leg) {
     const double length = leader.leg(leg).length();
-    return length > kNothing ? own.leg(leg).length() / length : 0;
+    return length > kLevel ? own.leg(leg).length() / length : 0;
 }
 
 /// A place on both routes.
@@ -51,7 +51,7 @@ Companions::Mapped cubic(const Knot& from, const Knot& to, double firstSlope, do
                          double place) {
     const double width = to.leader - from.leader;
     const double rise = to.own - from.own;
-    if (!(width > kNothing)) return {from.own, lastSlope};
+    if (!(width > kLevel)) return {from.own, lastSlope};
     const double mean = rise / width;
     const double a = std::min(firstSlope, 3 * mean); // Fritsch and Carlson
     const double b = std::min(lastSlope, 3 * mean);
@@ -63,7 +63,7 @@ Companions::Mapped cubic(const Knot& from, const Knot& to, double firstSlope, do
 }
 
 double slopeBetween(const Knot& from, const Knot& to) {
-    return to.leader - from.leader > kNothing ? (to.own - from.own) / (to.leader - from.leader) : 0;
+    return to.leader - from.leader > kLevel ? (to.own - from.own) / (to.leader - from.leader) : 0;
 }
 
 Companions::Mapped inTransition(const Transition& t, double firstSlope, double lastSlope, double place) {
@@ -88,7 +88,7 @@ RouteStretch seenByLeader(RouteStretch s, double slope, double change) {
     s.turnRate *= slope;
     s.armRate *= slope;
     s.curvature *= slope * slope;
-    if (slope > kNothing) {
+    if (slope > kLevel) {
         s.zoneLength /= slope;
         s.end = s.begin + (s.end - s.begin) / slope;
     }
@@ -166,7 +166,7 @@ void Companions::tighten(const Route& leader, const RouteStretch& stretch, Stret
             const RouteStretch& s = own.stretches()[k];
             const StretchLimits l =
                 limitsOn(seenByLeader(s, slope, change), own.leg(s.leg).limits, members_[i].accelerations);
-            limits.speed = std::min(limits.speed, l.speed * (around > kNothing ? slope / around : 1));
+            limits.speed = std::min(limits.speed, l.speed * (around > kLevel ? slope / around : 1));
             limits.bendSquare = std::min(limits.bendSquare, l.bendSquare);
             limits.gain = std::min(limits.gain, l.gain);
             limits.drop = std::min(limits.drop, l.drop);

@@ -9,7 +9,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kPeriod = 1e-9 * static_cast<double>(kModifierPeriod);
 constexpr double kCaught = 0.005;     // mm or deg: from here on the arm keeps to the object exactly
 constexpr double kBrakingShare = 0.8; // of the acceleration, to have some left for the discrete steps
 constexpr double kStill = 1e-9;
@@ -33,13 +32,13 @@ const ConveyorTracking::Sample* ConveyorTracking::sampleAt(TimeNs time) const {
 
 double ConveyorTracking::displacementAt(const Sample& sample, TimeNs time) {
     if (sample.isCaught) return sample.on->object->position(time) - sample.on->planned;
-    const double t = std::clamp(seconds(time - sample.time), 0.0, kPeriod);
+    const double t = std::clamp(seconds(time - sample.time), 0.0, kModifierSeconds);
     return sample.d + t * (sample.v + t * sample.a / 2);
 }
 
 double ConveyorTracking::speedAt(const Sample& sample, TimeNs time) {
     if (sample.isCaught) return sample.on->object->speed(time);
-    return sample.v + sample.a * std::clamp(seconds(time - sample.time), 0.0, kPeriod);
+    return sample.v + sample.a * std::clamp(seconds(time - sample.time), 0.0, kModifierSeconds);
 }
 
 bool ConveyorTracking::isDisplaced() const {
@@ -92,16 +91,16 @@ void ConveyorTracking::advance(const PlannedMoment& planned) {
 void ConveyorTracking::approach(Sample& next, double error, double reference, double mostSpeed) {
     const double acceleration = next.on->object->adjustmentAcceleration();
     const double fastest = std::min(std::sqrt(2 * kBrakingShare * acceleration * std::fabs(error)),
-                                    0.5 * std::fabs(error) / kPeriod);
+                                    0.5 * std::fabs(error) / kModifierSeconds);
     const double wanted = std::clamp(reference + std::copysign(fastest, error), -mostSpeed, mostSpeed);
-    next.a = std::clamp((wanted - next.v) / kPeriod, -acceleration, acceleration);
+    next.a = std::clamp((wanted - next.v) / kModifierSeconds, -acceleration, acceleration);
 }
 
 void ConveyorTracking::follow(Sample& next, const OnConveyor& on) const {
     if (next.isCaught) return;
     const double reference = on.object->speed(next.time);
     const double error = on.object->position(next.time) - on.planned - next.d;
-    const double step = on.object->adjustmentAcceleration() * kPeriod;
+    const double step = on.object->adjustmentAcceleration() * kModifierSeconds;
     if (std::fabs(error) <= kCaught && std::fabs(next.v - reference) <= step) {
         next.isCaught = true;
         next.a = 0;
@@ -113,7 +112,7 @@ void ConveyorTracking::follow(Sample& next, const OnConveyor& on) const {
 /// The movement does not belong to an object: the speed along the conveyor ends, and the arm is on its planned path again.
 void ConveyorTracking::returnToPath(Sample& next) const {
     next.isCaught = false;
-    const double step = next.on->object->adjustmentAcceleration() * kPeriod;
+    const double step = next.on->object->adjustmentAcceleration() * kModifierSeconds;
     if (std::fabs(next.d) <= kCaught && std::fabs(next.v) <= step) {
         next.d = next.v = next.a = 0;
         return;
@@ -125,7 +124,7 @@ void ConveyorTracking::returnToPath(Sample& next) const {
 void ConveyorTracking::stopMoving(Sample& next) {
     next.isCaught = false;
     const double acceleration = next.on->object->adjustmentAcceleration();
-    next.a = std::clamp(-next.v / kPeriod, -acceleration, acceleration);
+    next.a = std::clamp(-next.v / kModifierSeconds, -acceleration, acceleration);
 }
 
 Pose ConveyorTracking::displaced(const PlannedMoment& planned, const Pose& tcp) const {

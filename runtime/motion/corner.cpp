@@ -2,6 +2,8 @@
 
 #include "runtime/motion/route.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -186,7 +188,6 @@ void Route::blendTurn(Corner& corner, const Leg& a, const Leg& b, double before,
     const auto curve = joiningCurve(
         [&](double d) { return turned(poseIn(a, b, d).rot); }, a.length() - before, before,
         [&](double d) { return turned(poseOn(b, d).rot); }, after, corner.isSmooth ? corner.turn.tension : 0);
-    constexpr double kNothing = 1e-9; // rad
     if (norm(curve.p[0]) < kNothing && norm(curve.p[corner.isSmooth ? 5 : 3]) < kNothing)
         corner.turn = {};
     else

@@ -1,5 +1,7 @@
 #include "runtime/motion/course.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -260,7 +262,6 @@ CourseState Course::at(double time) const {
 }
 
 double Course::timeAt(double place) const {
-    constexpr double kNothing = 1e-9; // mm
     if (place >= endPlace() - kNothing) return end();
     if (before_ != nullptr && place <= before_->at(from_).s) return before_->timeAt(place);
     double low = plannedTimeAt(place);

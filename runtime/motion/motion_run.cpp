@@ -175,13 +175,13 @@ void MotionSystem::Impl::finishDetour() {
 
 /// The place on the path after `mm` back: on the interrupted move, or from its start on the one before.
 std::optional<PathPlace> MotionSystem::Impl::placeBack(double mm) const {
-    constexpr double kNothing = 1e-6;
+    constexpr double kSamePlace = 1e-6;
     if (path().isEmpty()) return {};
     const PathPlace here = path().at(seconds()).place;
     const auto within = [&](const Move& move) -> std::optional<PathPlace> {
         const PathPlace start = startOf(move);
         const PathPlace from = here.run == start.run ? here : endOf(move);
-        if (here < start || from.s <= start.s + kNothing) return {};
+        if (here < start || from.s <= start.s + kSamePlace) return {};
         return PathPlace{start.run, std::max(start.s, from.s - mm)};
     };
     if (front() != nullptr && front()->isStarted)

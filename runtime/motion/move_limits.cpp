@@ -1,12 +1,12 @@
 #include "runtime/motion/move_limits.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 
 namespace motion {
 
 namespace {
-
-constexpr double kUnlimited = 1e300;
 
 /// Shares of the accelerations that a load leaves: the torque of a motor is the same, the inertia grows (docs/motion.md).
 std::array<double, robot::kMostJoints> loadShares(const CarriedLoad& load, const robot::RobotModel& model) {

@@ -1,5 +1,7 @@
 #include "runtime/motion/optimal_plan.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +9,8 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9; // mm
-constexpr double kSliver = 1e-6;  // mm, of a cell that is not worth planning
-constexpr double kTick = 0.001;   // s, at which the result is checked
+constexpr double kSliver = 1e-6; // mm, of a cell that is not worth planning
+constexpr double kTick = 0.001;  // s, at which the result is checked
 // Shares of the limits in the check: samples may lie elsewhere later, and a jerk changes faster than an acceleration.
 constexpr double kAllowed = 0.9985;
 constexpr double kAllowedJerk = 0.99;

@@ -2,6 +2,7 @@
 
 #include "runtime/motion/path.h"
 
+#include "runtime/motion/tolerances.h"
 #include "runtime/robot/angles.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace motion {
 namespace {
 
 constexpr double kRounding = 2e-4; // mm and deg: a target read from the arm and kept in single precision
-constexpr double kNothing = 1e-9;  // mm or deg: no motion
 constexpr double kCoarseMm = 10;   // grid of a curve
 constexpr double kCoarseDeg = 2;
 constexpr double kLargestStep = 3;    // deg an axis may turn between two nodes

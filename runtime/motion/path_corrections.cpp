@@ -11,7 +11,6 @@ namespace {
 constexpr double kMostSpeed = 100;         // mm/s across the path
 constexpr double kMostAcceleration = 2000; // mm/s^2
 constexpr double kFullPace = 10; // mm/s along the path; slower ones slow down what happens across it
-constexpr double kPeriod = static_cast<double>(kModifierPeriod) * 1e-9;
 
 /// How long a change by this vector may take, s; one that has a speed of its own needs time to lose it.
 double blendTime(const Vec3& change, const Vec3& rate) {
@@ -65,7 +64,7 @@ void PathCorrections::advance(const PlannedMoment& planned) {
     if (std::exchange(hasJumped_, false))
         return shown_.jumpTo(planned.time, target, blendTime(shown_.now() - target, shown_.rate()));
     const double pace = planned.isMoving ? std::min(1.0, std::fabs(planned.speed) / kFullPace) : 0;
-    shown_.advance(planned.time, target, kPeriod * pace);
+    shown_.advance(planned.time, target, kModifierSeconds * pace);
 }
 
 void PathCorrections::otherPath(bool isNew) {

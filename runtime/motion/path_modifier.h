@@ -33,6 +33,7 @@ using TimeNs = int64_t;
 
 /// Period of the controller while it moves the arm: displacements, jogging, guidance and supervision advance with it.
 inline constexpr TimeNs kModifierPeriod = 4'000'000;
+inline constexpr double kModifierSeconds = 1e-9 * static_cast<double>(kModifierPeriod);
 
 /// The data of a modifier for a movement that it displaces; each kind of modifier has its own.
 struct Modification {

@@ -1,6 +1,7 @@
 #include "runtime/motion/path_modifiers.h"
 
 #include "runtime/motion/path_frame.h"
+#include "runtime/motion/tolerances.h"
 #include "runtime/motion/trajectory.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace motion {
 
 namespace {
-
-constexpr double kNothing = 1e-9;
 
 /// The mean direction of the path relative to the work object around a place, up to `reach` before and after it, in the object
 /// frame; zero where the TCP hardly moves.

@@ -7,15 +7,14 @@ namespace motion {
 
 namespace {
 
-constexpr double kUnlimited = 1e200;
-constexpr double kJerkShare = 0.997; // in a cell the speed may be a little higher than at its ends
+constexpr double kCellJerkShare = 0.997; // in a cell the speed may be a little higher than at its ends
 
 using Three = ProfileTerms::Three;
 constexpr double kMargin = ProfileTerms::kMargin;
 
 /// Accelerations that keep a row at a square of the speed.
 struct Range {
-    double low = -kUnlimited, high = kUnlimited;
+    double low = -kNoLimit, high = kNoLimit;
     bool contains(const Range& other) const { return low <= other.low && high >= other.high; }
 };
 
@@ -130,7 +129,7 @@ void ProfileSolver::setCaps(const std::vector<ProfileCell>& cells, const Profile
         double most = 1e8;
         for (std::size_t i = 0; i < rows.count; ++i) {
             const ProfileRow& row = rows.rows[i];
-            if (row.jerk > kUnlimited) continue;
+            if (row.jerk > kNoLimit) continue;
             const double factor = std::max(
                 std::abs(row.first) * 2 / (9 * width * width),
                 std::abs(row.first * 2 / (9 * width * width) + sign * 2 * row.second / width + row.third));
@@ -220,7 +219,7 @@ void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, 
     }
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
-        if (row.up > kUnlimited && row.down > kUnlimited) continue;
+        if (row.up > kNoLimit && row.down > kNoLimit) continue;
         const auto covers = [&](std::size_t other) {
             return i != other && slow[i].contains(slow[other]) && fast[i].contains(fast[other]) &&
                    (other < i || !(slow[other].contains(slow[i]) && fast[other].contains(fast[i])));
@@ -241,7 +240,7 @@ void ProfileSolver::addAccelerations(std::size_t cell, const ProfileRows& rows, 
 void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& rows, const Lines& at,
                              const Three& change, double cap) {
     const double root = std::sqrt(cap);
-    terms_.setEnd(cell, isLast, folded(cell, at.place), root * kJerkShare);
+    terms_.setEnd(cell, isLast, folded(cell, at.place), root * kCellJerkShare);
     double most = 1e7; // largest acceleration along the path
     for (std::size_t i = 0; i < rows.count; ++i)
         if (std::abs(rows.rows[i].first) > 1e-14)
@@ -258,7 +257,7 @@ void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& r
     double least = 0;
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
-        if (row.jerk > kUnlimited) continue;
+        if (row.jerk > kNoLimit) continue;
         const double inverse = inverseOf(row.first);
         middles[i] = {3 * row.second * inverse, row.third * inverse, row.jerk / root * std::abs(inverse)};
         const double stiffness = std::abs(row.first) / row.jerk;
@@ -269,7 +268,7 @@ void ProfileSolver::addJerks(std::size_t cell, bool isLast, const ProfileRows& r
     }
     for (std::size_t i = 0; i < rows.count; ++i) {
         const ProfileRow& row = rows.rows[i];
-        if (row.jerk > kUnlimited) continue;
+        if (row.jerk > kNoLimit) continue;
         if (i != tight && least > 0) {
             const double apart = std::abs(middles[i].bySlope - middles[tight].bySlope) * most +
                                  std::abs(middles[i].bySquare - middles[tight].bySquare) * cap;

@@ -12,6 +12,9 @@
 
 namespace motion {
 
+/// A limit of speed, acceleration or jerk above it does not count.
+inline constexpr double kNoLimit = 1e200;
+
 /// How one quantity (an axis, or the TCP) depends on the place, and its limits.
 struct ProfileRow {
     double first, second, third; ///< derivatives by the place

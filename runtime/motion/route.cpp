@@ -1,5 +1,7 @@
 #include "runtime/motion/route.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9;     // mm
 constexpr double kLongestStretch = 5; // mm
 constexpr double kLeastRadius = 0.3;  // mm, a zone that is programmed as 0 but not as a stop point (z0)
 constexpr int kStretchesInZone = 15;  // odd: the sharpest bend lies inside one

@@ -7,7 +7,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kUnlimited = 1e200;
 /// Shares of the limits that planning uses: derivatives are known at the ends of stretches only.
 constexpr double kSpeedShare = 1 - 2e-6;
 constexpr double kShare = 0.995;
@@ -43,7 +42,7 @@ double mostRate(const Samples& f, double h) {
 
 double squareOf(double limit, double rate) {
     const double size = std::abs(rate);
-    if (size < 1e-12 || limit > kUnlimited) return kUnlimited;
+    if (size < 1e-12 || limit > kNoLimit) return kNoLimit;
     const double speed = kSpeedShare * limit / size;
     return speed * speed;
 }
@@ -89,7 +88,7 @@ void addTcp(ProfileCell& cell, const Sampled& sampled, const MoveLimits& most) {
     const double world = kEach * most.worldAcceleration;
     const double up = kShare * std::min(most.pathAcceleration, world);
     const double down = kShare * std::min(most.pathDeceleration, world);
-    if (up > kUnlimited && down > kUnlimited) return;
+    if (up > kNoLimit && down > kNoLimit) return;
     std::array<Samples, 3> way{};
     for (std::size_t k = 0; k < kSamples; ++k) {
         const Vec3& p = sampled.tcp[k].pos;

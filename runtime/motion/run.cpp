@@ -1,5 +1,7 @@
 #include "runtime/motion/run.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,9 +9,6 @@
 namespace motion {
 
 namespace {
-
-constexpr double kUnlimited = 1e300;
-constexpr double kNothing = 1e-9; // mm
 
 /// Squares of the speed at one end of a stretch that go with a square at the other end.
 struct Interval {

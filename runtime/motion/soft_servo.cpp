@@ -1,5 +1,7 @@
 #include "runtime/motion/soft_servo.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,8 +13,6 @@ namespace {
 constexpr double kDeflection = 0.1; // deg or mm a percent, under the greatest torque
 constexpr std::size_t kWindow =
     25; // periods: torques act averaged over this time, as a mass on a spring gives way
-constexpr double kPeriod = static_cast<double>(kModifierPeriod) * 1e-9;
-constexpr double kNothing = 1e-9;
 
 } // namespace
 
@@ -60,7 +60,7 @@ Joints SoftServo::deflectionOf(const Sample& now) const {
     accelerations_.limitsAt(now.planned, most);
     Joints deflection = Joints::zeros(axes);
     const auto speed = [&](std::size_t from, std::size_t axis) {
-        return (window_[from + 1].planned[axis] - window_[from].planned[axis]) / kPeriod;
+        return (window_[from + 1].planned[axis] - window_[from].planned[axis]) / kModifierSeconds;
     };
     for (std::size_t i = 0; i < axes; ++i) {
         const double compliance = kDeflection * ramps_[i].at(now.time);
@@ -70,7 +70,7 @@ Joints SoftServo::deflectionOf(const Sample& now) const {
             outside += window_[k].outside[i];
         outside /= static_cast<double>(window_.size() - 1);
         const double gained = speed(window_.size() - 2, i) - speed(0, i);
-        const double needed = gained / (kPeriod * static_cast<double>(window_.size() - 2)) / most[i];
+        const double needed = gained / (kModifierSeconds * static_cast<double>(window_.size() - 2)) / most[i];
         deflection[i] = compliance * std::clamp(outside - needed, -1.0, 1.0);
     }
     return deflection;

@@ -1,5 +1,7 @@
 #include "runtime/motion/stretch_limits.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kUnlimited = 1e300;
 constexpr double kShortestZone = 0.0028; // s: a corner takes at least this long (docs/motion.md)
 
 double atMost(double limit, double rate) {
@@ -46,10 +47,10 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     if (most.worldAcceleration < kUnlimited) {
         // Along and across the path together: across it at most the same share as along it; along it what the highest
         // speed leaves, all on a straight line.
-        constexpr double kShare = 0.7071;
-        l.bendSquare = std::min(l.bendSquare, atMost(kShare * most.worldAcceleration, s.curvature));
+        constexpr double kWorldShare = 0.7071;
+        l.bendSquare = std::min(l.bendSquare, atMost(kWorldShare * most.worldAcceleration, s.curvature));
         const double square = l.speed < 1e100 ? std::min(l.speed * l.speed, l.bendSquare) : l.bendSquare;
-        const double across = std::min(square * std::abs(s.curvature) / most.worldAcceleration, kShare);
+        const double across = std::min(square * std::abs(s.curvature) / most.worldAcceleration, kWorldShare);
         add(s.tcpRate, 0, std::sqrt(1 - across * across) * most.worldAcceleration);
     }
     l.gain = atMost(most.pathAcceleration, s.tcpRate);

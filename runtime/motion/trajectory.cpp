@@ -1,5 +1,7 @@
 #include "runtime/motion/trajectory.h"
 
+#include "runtime/motion/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@ namespace motion {
 
 namespace {
 
-constexpr double kNothing = 1e-9;    // mm or s
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
 constexpr double kMakingUp = 0.03;   // s, for what a run has covered before it was ordered
 constexpr double kSettling =

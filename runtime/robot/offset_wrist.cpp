@@ -18,7 +18,7 @@ constexpr int kMostDepth = 12;         // halvings of an interval in which the f
 constexpr double kFastTurn = 0.15;     // change of the forearm direction that asks for a halving
 constexpr double kTrustedSlope = 0.02; // slope of the condition below which two solutions are close
 
-struct Target {
+struct OffsetTarget {
     Vec3 x, y, z; // columns of the flange orientation
     Vec3 foot;    // of axis 6 on the common perpendicular with axis 5
     double axis1Deg = 0;
@@ -56,17 +56,17 @@ class OffsetWrist final : public SixAxes {
 
   private:
     friend class RootSearch;
-    Target takeApart(const Pose& flange, const Joints& seed) const;
+    OffsetTarget takeApart(const Pose& flange, const Joints& seed) const;
     /// The wrist at sine and cosine of axis 6: directions of the offset and of axis 5, and the arm's target.
-    bool wristAt(const Target& target, double sine, double cosine, Vec3& axis5, ArmTarget& arm) const;
-    Sample sampleAt(const Target& target, int branch, double angle) const;
-    bool solution(const Target& target, int branch, double angle, Joints& out) const;
+    bool wristAt(const OffsetTarget& target, double sine, double cosine, Vec3& axis5, ArmTarget& arm) const;
+    Sample sampleAt(const OffsetTarget& target, int branch, double angle) const;
+    bool solution(const OffsetTarget& target, int branch, double angle, Joints& out) const;
 };
 
 /// All roots of one branch.
 class RootSearch {
   public:
-    RootSearch(const OffsetWrist& wrist, const Target& target, int branch, IkBranches& out)
+    RootSearch(const OffsetWrist& wrist, const OffsetTarget& target, int branch, IkBranches& out)
         : wrist_(wrist), target_(target), branch_(branch), out_(out) {}
 
     /// Between two neighbouring samples, one of them valid at least.
@@ -86,26 +86,26 @@ class RootSearch {
     void found(double angle);
 
     const OffsetWrist& wrist_;
-    const Target& target_;
+    const OffsetTarget& target_;
     int branch_;
     IkBranches& out_;
 };
 
-Target OffsetWrist::takeApart(const Pose& flange, const Joints& seed) const {
-    Target target{
+OffsetTarget OffsetWrist::takeApart(const Pose& flange, const Joints& seed) const {
+    OffsetTarget target{
         column(flange.rot, 0), column(flange.rot, 1), column(flange.rot, 2), {}, modelAngle(seed, 0)};
     target.foot = flange.pos - target.z * geometry_.c4;
     return target;
 }
 
-bool OffsetWrist::wristAt(const Target& target, double sine, double cosine, Vec3& axis5,
+bool OffsetWrist::wristAt(const OffsetTarget& target, double sine, double cosine, Vec3& axis5,
                           ArmTarget& arm) const {
     axis5 = target.y * cosine + target.x * sine;
     const Vec3 offset = target.y * sine - target.x * cosine;
     return plane_.aim(target.foot - offset * wristOffset_, target.axis1Deg, arm);
 }
 
-Sample OffsetWrist::sampleAt(const Target& target, int branch, double angle) const {
+Sample OffsetWrist::sampleAt(const OffsetTarget& target, int branch, double angle) const {
     Sample sample;
     sample.angle = angle;
     Vec3 axis5;
@@ -119,7 +119,7 @@ Sample OffsetWrist::sampleAt(const Target& target, int branch, double angle) con
     return sample;
 }
 
-bool OffsetWrist::solution(const Target& target, int branch, double angle, Joints& out) const {
+bool OffsetWrist::solution(const OffsetTarget& target, int branch, double angle, Joints& out) const {
     const double sine = std::sin(angle);
     const double cosine = std::cos(angle);
     Vec3 axis5;
@@ -304,7 +304,7 @@ void OffsetWrist::inverseAll(const Pose& flange, const Joints& seed, double /*ar
                              IkBranches& out) const {
     static const GridAngles grid;
     out.valid = 0;
-    const Target target = takeApart(flange, seed);
+    const OffsetTarget target = takeApart(flange, seed);
     if (!(dot(target.foot, target.foot) < 1e12) || !std::isfinite(target.axis1Deg)) return;
     Sample samples[4][kGrid];
     double lacks[2][kGrid];
@@ -344,7 +344,7 @@ void OffsetWrist::inverseAll(const Pose& flange, const Joints& seed, double /*ar
 
 bool OffsetWrist::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                   Joints& out) const {
-    const Target target = takeApart(flange, seed);
+    const OffsetTarget target = takeApart(flange, seed);
     if (!(dot(target.foot, target.foot) < 1e12) || !std::isfinite(target.axis1Deg)) return false;
     const int branch = configuration(seed).cfx >> 1;
     Sample a = sampleAt(target, branch, modelAngle(seed, 5) * kDeg);

@@ -90,7 +90,7 @@ Ends between(const Ends& from, const Ends& to, double share, std::size_t singula
 }
 
 /// Pose and arm angle taken apart once.
-struct Target {
+struct SevenAxesTarget {
     Vec3 shoulder, wrist;
     Vec3 x, y, z; // of the flange, turned so that x is the direction of axis 6 and y, z are level at zero
     Vec3 line;    // from shoulder to wrist, unit
@@ -141,18 +141,18 @@ class SevenAxes final : public Mechanism {
     };
     Chain chainOf(const Joints& joints) const;
     bool referenceAxes(const Vec3& line, Vec3& x, Vec3& y) const;
-    bool takeApart(const Pose& flange, double armAngleDeg, Target& target) const;
-    void linesAt(const Target& target, const Ends& ends, Lines& lines) const;
+    bool takeApart(const Pose& flange, double armAngleDeg, SevenAxesTarget& target) const;
+    void linesAt(const SevenAxesTarget& target, const Ends& ends, Lines& lines) const;
     void equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoints]) const;
-    Ends weakDirection(const Target& target, const Ends& ends) const;
-    bool polish(const Target& target, Ends& ends, Lines& lines, int iterations,
+    Ends weakDirection(const SevenAxesTarget& target, const Ends& ends) const;
+    bool polish(const SevenAxesTarget& target, Ends& ends, Lines& lines, int iterations,
                 const Found* known = nullptr) const;
     void toJoints(const Ends& ends, const Lines& lines, Joints& out) const;
     double stretchedDeg() const {
         return (std::atan2(g_.elbowOut, g_.upperArm) + std::atan2(g_.elbowUp, g_.forearm)) / kDeg - 90.0;
     }
-    void start(const Target& target, double tilt, int branch, Ends& ends) const;
-    Ends endsOf(const Target& target, const Joints& joints) const;
+    void start(const SevenAxesTarget& target, double tilt, int branch, Ends& ends) const;
+    Ends endsOf(const SevenAxesTarget& target, const Joints& joints) const;
     void add(const Ends& ends, const Lines& lines, Found& found, IkBranches& out) const;
 
     SevenAxisGeometry g_;
@@ -234,7 +234,7 @@ double SevenAxes::armAngle(const Joints& joints) const {
     return std::atan2(dot(y, chain.axes[3]), dot(x, chain.axes[3])) / kDeg;
 }
 
-bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target) const {
+bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, SevenAxesTarget& target) const {
     target.x = column(flange.rot, 2);
     target.y = column(flange.rot, 1);
     target.z = column(flange.rot, 0) * -1.0;
@@ -254,7 +254,7 @@ bool SevenAxes::takeApart(const Pose& flange, double armAngleDeg, Target& target
     return std::isfinite(dot(target.half, target.x));
 }
 
-void SevenAxes::linesAt(const Target& target, const Ends& ends, Lines& l) const {
+void SevenAxes::linesAt(const SevenAxesTarget& target, const Ends& ends, Lines& l) const {
     double degrees[kUnknowns];
     for (std::size_t k = 0; k < kUnknowns; ++k)
         degrees[k] = ends.t[k] / kDeg;
@@ -310,7 +310,7 @@ void SevenAxes::equations(const Lines& l, double (&matrix)[kMostJoints][kMostJoi
 }
 
 /// With `known` only what leads to another solution than these is followed to its end.
-bool SevenAxes::polish(const Target& target, Ends& ends, Lines& lines, int iterations,
+bool SevenAxes::polish(const SevenAxesTarget& target, Ends& ends, Lines& lines, int iterations,
                        const Found* known) const {
     linesAt(target, ends, lines);
     double size = lines.size();
@@ -357,7 +357,7 @@ void SevenAxes::toJoints(const Ends& ends, const Lines& l, Joints& out) const {
 
 /// A point near a solution: the arm as if all offsets at shoulder and wrist were taken from a first guess. Bits of
 /// `branch`: 0 wrist, 1 elbow, 2 shoulder. `tilt` leans axis 3 out of the plane across the line from shoulder to wrist.
-void SevenAxes::start(const Target& target, double tilt, int branch, Ends& ends) const {
+void SevenAxes::start(const SevenAxesTarget& target, double tilt, int branch, Ends& ends) const {
     const Vec3 axis3 = target.half * std::cos(tilt) + target.line * std::sin(tilt);
     const double upper = std::hypot(g_.upperArm, g_.elbowOut);
     const double fore = std::hypot(g_.forearm, g_.elbowUp);
@@ -409,7 +409,7 @@ void SevenAxes::add(const Ends& ends, const Lines& lines, Found& found, IkBranch
     found.ends[found.count++] = ends;
 }
 
-Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
+Ends SevenAxes::endsOf(const SevenAxesTarget& target, const Joints& joints) const {
     constexpr std::size_t kPlaces[4] = {0, 1, 4, 5};
     Ends ends;
     for (std::size_t k = 0; k < 4; ++k)
@@ -427,7 +427,7 @@ Ends SevenAxes::endsOf(const Target& target, const Joints& joints) const {
 void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAngleDeg,
                            IkBranches& out) const {
     out.valid = 0;
-    Target target;
+    SevenAxesTarget target;
     if (!takeApart(flange, std::isnan(armAngleDeg) ? armAngle(seed) : armAngleDeg, target)) return;
     Found found;
     bool isThorough = false;
@@ -502,7 +502,7 @@ void SevenAxes::inverseAll(const Pose& flange, const Joints& seed, double armAng
 
 /// Two solutions that are close to each other lie along the direction that the equations hold least: the answer of
 /// their inverse to nearly anything, made a unit.
-Ends SevenAxes::weakDirection(const Target& target, const Ends& ends) const {
+Ends SevenAxes::weakDirection(const SevenAxesTarget& target, const Ends& ends) const {
     Lines lines;
     linesAt(target, ends, lines);
     double matrix[kMostJoints][kMostJoints];
@@ -521,7 +521,7 @@ Ends SevenAxes::weakDirection(const Target& target, const Ends& ends) const {
 bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                 Joints& out) const {
     const double angle = std::isnan(armAngleDeg) ? armAngle(seed) : armAngleDeg;
-    Target target;
+    SevenAxesTarget target;
     if (!takeApart(flange, angle, target)) return false;
     Ends ends = endsOf(target, seed);
     Lines lines;
@@ -537,7 +537,7 @@ bool SevenAxes::inverseContinue(const Pose& flange, const Joints& seed, double a
 /// Determinant of the equations at a posture, relative to the lengths of its columns: 0 where pose and arm angle do
 /// not hold the axes.
 double SevenAxes::side(const Joints& joints) const {
-    Target target;
+    SevenAxesTarget target;
     if (!takeApart(forward(joints), armAngle(joints), target)) return 0;
     Lines lines;
     linesAt(target, endsOf(target, joints), lines);

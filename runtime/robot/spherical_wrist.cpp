@@ -12,7 +12,7 @@ namespace {
 constexpr double kFreeWrist = 1e-10; // sine of axis 5 below which axes 4 and 6 are one axis
 
 /// The flange pose taken apart once for all branches.
-struct Target {
+struct SphericalTarget {
     Vec3 flangeX, flangeY, flangeZ;
     ArmTarget arm;
 };
@@ -28,22 +28,22 @@ class SphericalWrist final : public SixAxes {
                          Joints& out) const override;
 
   private:
-    bool takeApart(const Pose& flange, const Joints& seed, Target& target) const;
-    bool solveBranch(const Target& target, int cfx, double axis4, double axis6, Joints& out) const;
+    bool takeApart(const Pose& flange, const Joints& seed, SphericalTarget& target) const;
+    bool solveBranch(const SphericalTarget& target, int cfx, double axis4, double axis6, Joints& out) const;
     /// Axes 4 and 6 in line: axis 4 at `axis4` degrees, axis 6 in the turn nearest to `axis6`.
-    void solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
+    void solveFreeWrist(const SphericalTarget& target, const ArmBranch& arm, double axis4, double axis6,
                         double (&model)[6]) const;
 };
 
-bool SphericalWrist::takeApart(const Pose& flange, const Joints& seed, Target& target) const {
+bool SphericalWrist::takeApart(const Pose& flange, const Joints& seed, SphericalTarget& target) const {
     target.flangeX = column(flange.rot, 0);
     target.flangeY = column(flange.rot, 1);
     target.flangeZ = column(flange.rot, 2);
     return plane_.aim(flange.pos - target.flangeZ * geometry_.c4, modelAngle(seed, 0), target.arm);
 }
 
-void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, double axis4, double axis6,
-                                    double (&model)[6]) const {
+void SphericalWrist::solveFreeWrist(const SphericalTarget& target, const ArmBranch& arm, double axis4,
+                                    double axis6, double (&model)[6]) const {
     model[3] = signs_[3] * axis4 + shifts_[3];
     const double turn =
         std::atan2(dot(arm.forearmZ(), target.flangeY), dot(arm.forearmY(), target.flangeY)) / kDeg;
@@ -52,7 +52,7 @@ void SphericalWrist::solveFreeWrist(const Target& target, const ArmBranch& arm, 
     model[5] = nearestTurn(model[5], signs_[5] * axis6 + shifts_[5]);
 }
 
-bool SphericalWrist::solveBranch(const Target& target, int cfx, double axis4, double axis6,
+bool SphericalWrist::solveBranch(const SphericalTarget& target, int cfx, double axis4, double axis6,
                                  Joints& out) const {
     ArmBranch arm;
     if (!plane_.solve(target.arm, cfx >> 2 & 1, cfx >> 1 & 1, arm)) return false;
@@ -79,7 +79,7 @@ bool SphericalWrist::solveBranch(const Target& target, int cfx, double axis4, do
 void SphericalWrist::inverseAll(const Pose& flange, const Joints& seed, double /*armAngleDeg*/,
                                 IkBranches& out) const {
     out.valid = 0;
-    Target target;
+    SphericalTarget target;
     if (!takeApart(flange, seed, target)) return;
     ArmBranch arms[4];
     double y[24] = {};
@@ -124,7 +124,7 @@ void SphericalWrist::inverseAll(const Pose& flange, const Joints& seed, double /
 
 Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const ConfData& conf,
                                                   const Joints& seed, double /*armAngleDeg*/) const {
-    Target target;
+    SphericalTarget target;
     if (!takeApart(flange, seed, target)) return Unexpected{IkError{}};
     Joints joints;
     if (conf.cfx < 0 || conf.cfx > 7) return Unexpected{IkError{IkErrorKind::NoSuchConfiguration, 0, 0}};
@@ -159,7 +159,7 @@ bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, dou
     const int own = configuration(seed).cfx;
     // Another branch turns axis 1 or 4 by about half a revolution: a near solution on the own one is the nearest.
     constexpr double kNear = 20; // deg
-    Target target;
+    SphericalTarget target;
     Joints same = seed;
     if (takeApart(flange, seed, target) && solveBranch(target, own, seed[3], seed[5], same) &&
         turnTowards(seed, same) < kNear) {

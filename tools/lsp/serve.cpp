@@ -180,7 +180,7 @@ class Writer {
     void send(const Json& message) {
         const std::string bytes = protocol::frame(rapid::config::textOf(message));
         for (size_t sent = 0; sent < bytes.size() && !broken_;) {
-            const ssize_t count = write(STDOUT_FILENO, bytes.data() + sent, bytes.size() - sent);
+            const ssize_t count = ::write(STDOUT_FILENO, bytes.data() + sent, bytes.size() - sent);
             if (count > 0)
                 sent += static_cast<size_t>(count);
             else if (count < 0 && errno == EAGAIN)

@@ -9,9 +9,9 @@ std::string TokenCursor::describe(TokenIndex i) const {
     if (isKeyword(k) || isPlaceholder(k)) return std::string(tokenText(k));
     if (k == TokenKind::EndOfFile) return "the end of the file";
     std::string_view text = textOf(i);
-    constexpr size_t kShown = 40;
-    if (text.size() <= kShown) return fmt::format("'{}'", text);
-    size_t cut = kShown;
+    constexpr size_t kShownBytes = 40;
+    if (text.size() <= kShownBytes) return fmt::format("'{}'", text);
+    size_t cut = kShownBytes;
     while ((static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80)
         --cut;
     return fmt::format("'{}...'", text.substr(0, cut));

@@ -18,9 +18,9 @@ TokenIndex NameReader::expectName(bool newerKeywords) {
         readAs(pos(), K::Identifier); // RaiseToUser \Continue is older than the keyword
         return take();
     }
-    constexpr TokenSet kAfterName = {K::Semicolon, K::Assign, K::LeftParen,
-                                     K::LeftBrace, K::Comma,  K::RightParen};
-    const bool canBeName = !kEndWords.has(kind()) || (kAfterName.has(peek()) && !startsLine(pos() + 1));
+    constexpr TokenSet kAfterPlainName = {K::Semicolon, K::Assign, K::LeftParen,
+                                          K::LeftBrace, K::Comma,  K::RightParen};
+    const bool canBeName = !kEndWords.has(kind()) || (kAfterPlainName.has(peek()) && !startsLine(pos() + 1));
     if (isKeyword(kind()) && canBeName && !startsLine(pos())) return takeReservedName();
     if (startsLine(pos()) && pos() > 0 && kind() != K::Error) {
         reportAt(say::UnexpectedToken, endOf(pos() - 1), {describe(pos()), "a name"});

@@ -45,10 +45,10 @@ class SemicolonInCase : public RecoveryStrategy {
 class SlashForBackslash : public RecoveryStrategy {
     using RecoveryStrategy::RecoveryStrategy;
     Proposal propose(const Situation& at) const override {
-        constexpr TokenSet kAfterName = {K::Assign,     K::Semicolon, K::Comma,
-                                         K::RightParen, K::Backslash, K::Question};
+        constexpr TokenSet kAfterOption = {K::Assign,     K::Semicolon, K::Comma,
+                                           K::RightParen, K::Backslash, K::Question};
         const bool parameter = at.place == Place::Parameter;
-        if (kind() != K::Slash || !isName(peek()) || (!parameter && !kAfterName.has(peek(2)))) return {};
+        if (kind() != K::Slash || !isName(peek()) || (!parameter && !kAfterOption.has(peek(2)))) return {};
         return sign(K::Backslash, say::ForeignSpelling, "/",
                     parameter ? "'\\' before an optional parameter" : "'\\' before an optional argument",
                     "\\");

@@ -20,7 +20,6 @@ void SensorSupervision::set(const Limits& limits) {
 }
 
 void SensorSupervision::advance(const motion::PlannedMoment& planned) {
-    constexpr double kPeriod = 1e-9 * static_cast<double>(motion::kModifierPeriod);
     const auto* span = planned.find<SensorSpan>();
     if (span == nullptr || !planned.isMoving || limits_.sensor == nullptr) return;
     if (std::exchange(tag_, planned.tag) != planned.tag) length_ = planned.toEnd;
@@ -29,7 +28,7 @@ void SensorSupervision::advance(const motion::PlannedMoment& planned) {
     const double position = limits_.sensor->connectedPosition();
     const bool isSupervised = expected >= limits_.from && expected <= limits_.to;
     const bool isBeyond = isSupervised && std::fabs(position - expected) > limits_.allowed;
-    beyond_ = isBeyond ? beyond_ + kPeriod : 0;
+    beyond_ = isBeyond ? beyond_ + motion::kModifierSeconds : 0;
     if (beyond_ <= limits_.delay) return;
     limits_.sensor = nullptr;
     report_(position, expected);
