@@ -75,9 +75,10 @@ void MotionDriver::refresh() {
 }
 
 void MotionDriver::setOverride(double percent) {
-    system().setOverride(percent);
+    const double before = system().speedOverride();
+    system_.setOverride(percent);
     refresh();
-    tell(ArmChange::Override);
+    if (system_.speedOverride() != before) tell(ArmChange::Override);
 }
 
 void MotionDriver::setProgramOverride(double percent) {
@@ -87,10 +88,14 @@ void MotionDriver::setProgramOverride(double percent) {
         for (const SynchronisedGroup::Member& member : group->members())
             drivers.push_back(member.driver);
     }
-    for (MotionDriver* driver : drivers)
-        driver->system().setProgramOverride(percent);
+    std::vector<MotionDriver*> changed;
+    for (MotionDriver* driver : drivers) {
+        const double before = driver->system().programOverride();
+        driver->system_.setProgramOverride(percent);
+        if (driver->system_.programOverride() != before) changed.push_back(driver);
+    }
     refresh();
-    for (MotionDriver* driver : drivers)
+    for (MotionDriver* driver : changed)
         driver->tell(ArmChange::Override);
 }
 

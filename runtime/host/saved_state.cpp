@@ -309,13 +309,10 @@ void SavedState::restore(StateImage& image) {
 namespace {
 
 /// A work object that another robot carries knows it by its number only.
-void findCarriers(const std::vector<std::unique_ptr<MotionDriver>>& motions,
-                  std::vector<motion::MoveCommand>& moves) {
-    for (motion::MoveCommand& move : moves) {
-        const int group = move.frames.carrierGroup;
-        if (group >= 0 && static_cast<std::size_t>(group) < motions.size())
-            move.frames.carrier = &motions[static_cast<std::size_t>(group)]->system();
-    }
+void findCarrier(const std::vector<std::unique_ptr<MotionDriver>>& motions, motion::MoveCommand& move) {
+    const int group = move.frames.carrierGroup;
+    if (group >= 0 && static_cast<std::size_t>(group) < motions.size())
+        move.frames.carrier = &motions[static_cast<std::size_t>(group)]->system();
 }
 
 bool isMoved(const Task& task, const StateImage& image) {
@@ -329,19 +326,14 @@ bool isMoved(const Task& task, const StateImage& image) {
 void SavedState::restorePaths(StateImage& image) {
     for (StateImage::Group& group : image.groups) {
         MotionDriver::EarlierPath& path = group.path;
-        findCarriers(controller_.motions(), path.moves);
-        const auto findCarrier = [&](std::optional<motion::MoveCommand>& move) {
-            if (!move) return;
-            std::vector<motion::MoveCommand> one{*move};
-            findCarriers(controller_.motions(), one);
-            move = one.front();
-        };
+        const auto complete = [&](motion::MoveCommand& move) { findCarrier(controller_.motions(), move); };
+        std::for_each(path.moves.begin(), path.moves.end(), complete);
         for (MotionDriver::EarlierLevel& level : path.stored) {
-            findCarriers(controller_.motions(), level.moves);
-            if (level.place) findCarrier(level.place->before);
+            std::for_each(level.moves.begin(), level.moves.end(), complete);
+            if (level.place && level.place->before) complete(*level.place->before);
         }
-        if (path.place) findCarrier(path.place->before);
-        findCarrier(path.awaited);
+        if (path.place && path.place->before) complete(*path.place->before);
+        if (path.awaited) complete(*path.awaited);
     }
     for (const std::vector<std::string>& names : image.synchronised)
         restoreTogether(image, names);

@@ -227,7 +227,7 @@ Reply Users::requestPrivilege(const Request& request) {
     return Reply::done(202);
 }
 
-/// As somebody at the pendant does: the user with that number gets the privilege, or loses it.
+/// Grants the privilege to the user with that number, or withdraws it, as an operator does on the FlexPendant.
 Reply Users::setPrivilege(const Request& request) {
     const std::string level = request.form.text("privilege");
     const auto is = [&](const char* each) { return rapid::config::sameName(each, level); };

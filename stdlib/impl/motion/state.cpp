@@ -38,8 +38,7 @@ void resetSettings(Task& task) {
     if (!task.isMotionTask()) return;
     restoreDefaults(task);
     MotionDriver& motion = task.controller().motion(task);
-    motion.system().setProgramOverride(100);
-    motion.refresh();
+    motion.setProgramOverride(100);
     endSpeedOutputs(task);
     endStopSupervision(task);
     endTemporaryZones(task);
