@@ -22,6 +22,7 @@ endif()
 option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(RAPIDC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)
+option(RAPIDC_UNITY "Compile the files of a folder together: faster from nothing, slower after a change of one file" OFF)
 
 # The compiler need not be fast to the last percent: -O2 takes less time to build. Only the programs have to be fast, and
 # LLVM optimises those.
@@ -75,6 +76,16 @@ function(rapidc_precompiled target)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
+# rapidc_precompile(TARGET HEADER...): precompiles these besides the standard headers. With RAPIDC_UNITY they are read once in a folder,
+# and the standard ones are sufficient.
+function(rapidc_precompile target)
+  if(RAPIDC_UNITY)
+    rapidc_precompiled(${target})
+  else()
+    target_precompile_headers(${target} PRIVATE ${STANDARD_HEADERS} ${ARGN})
+  endif()
+endfunction()
+
 # rapidc_library(NAME DIRS dir... DEPS lib...): a static library of all .cpp files below the given
 # folders (relative to the current one). PRECOMPILED header...: besides the standard headers. PRECOMPILED_BY lib: takes over
 # those of another library.
@@ -90,7 +101,9 @@ function(rapidc_library name)
     target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
     target_link_libraries(${name} PRIVATE rapidc_options PUBLIC ${ARG_DEPS})
     if(ARG_PRECOMPILED)
-      target_precompile_headers(${name} PRIVATE ${STANDARD_HEADERS} ${ARG_PRECOMPILED})
+      rapidc_precompile(${name} ${ARG_PRECOMPILED})
+    elseif(RAPIDC_UNITY)
+      rapidc_precompiled(${name})
     else()
       rapidc_precompiled(${name} ${ARG_PRECOMPILED_BY})
     endif()

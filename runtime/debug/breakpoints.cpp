@@ -14,7 +14,7 @@ std::string_view fileName(std::string_view path) {
     return path.substr(path.find_last_of('/') + 1);
 }
 
-std::size_t depthOf(const Frame* frame) {
+std::size_t callDepthOf(const Frame* frame) {
     std::size_t depth = 0;
     for (; frame != nullptr; frame = frame->caller)
         ++depth;
@@ -148,7 +148,7 @@ std::vector<int> Breakpoints::stopsAt(const Breakpoint& breakpoint, const Routin
 /// The task has come into the routine of `at` since it executed a statement last.
 bool Breakpoints::entered(const Task& task, const Frame* at) {
     Latest& latest = latest_[&task];
-    const Latest now{at, depthOf(at)};
+    const Latest now{at, callDepthOf(at)};
     const Latest before = std::exchange(latest, now);
     return now.depth > before.depth || (now.depth == before.depth && now.frame != before.frame);
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// The handler of RaiseToUser \Continue is as deep as the routine it belongs to: the first one further out that can be
 /// stepped.
-std::size_t depthOf(const Frame* frame) {
+std::size_t steppingDepthOf(const Frame* frame) {
     std::size_t depth = 0;
     if (frame != nullptr && frame->routine->isDetachedHandler != 0) do
             frame = frame->caller;
@@ -141,13 +141,13 @@ bool Debugger::stepEnds(const State& state, const Frame* at) {
     case Mode::Backward: return (statement.flags & kStmtInBackward) != 0;
     case Mode::In:
     case Mode::Pause: return true;
-    case Mode::Over: return depthOf(at) <= state.depth;
-    case Mode::Out: return depthOf(at) < state.depth;
+    case Mode::Over: return steppingDepthOf(at) <= state.depth;
+    case Mode::Out: return steppingDepthOf(at) < state.depth;
     case Mode::Line: {
-        const std::size_t depth = depthOf(at);
+        const std::size_t depth = steppingDepthOf(at);
         return depth < state.depth || (depth == state.depth && statement.line != state.fromLine);
     }
-    case Mode::LineInto: return depthOf(at) != state.depth || statement.line != state.fromLine;
+    case Mode::LineInto: return steppingDepthOf(at) != state.depth || statement.line != state.fromLine;
     case Mode::Move: return (statement.flags & kStmtMovement) != 0;
     case Mode::Cursor: return statement.line == state.cursorLine && isPlace(*at->routine, state.cursorPlace);
     }
@@ -269,7 +269,7 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     }
     state.mode = mode;
     state.passFirst = task.stopCause() == StopCause::AtMain && mode != Mode::Cursor;
-    state.depth = depthOf(state.standing != nullptr ? state.standing : task.frame);
+    state.depth = steppingDepthOf(state.standing != nullptr ? state.standing : task.frame);
     task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
     if (!alone) resumeOthers(task);
     held_ = false;

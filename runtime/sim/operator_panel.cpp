@@ -267,7 +267,7 @@ Status OperatorPanel::readAnswer(Asking& asking, std::optional<DialogEnd>& end) 
 /// False at the end of input: no answer can come any more.
 bool OperatorPanel::readTerminal() {
     char buffer[512];
-    const ssize_t got = read(STDIN_FILENO, buffer, sizeof buffer);
+    const ssize_t got = ::read(STDIN_FILENO, buffer, sizeof buffer);
     if (got <= 0) {
         terminal_ = 0;
         answered_.notifyAll();

@@ -25,7 +25,7 @@ using service::FoundData;
 constexpr std::size_t kMostPaths = 500;
 constexpr std::size_t kLongestValue = std::size_t{256} * 1024; // bytes of a value that is sent or taken
 
-const char* kindOf(service::SymbolType type) {
+const char* nameOfDataKind(service::SymbolType type) {
     switch (type) {
     case service::SymbolType::Constant: return "const";
     case service::SymbolType::Persistent: return "pers";
@@ -142,7 +142,7 @@ Json DataArea::list(const Json& params) {
                         {"module", names[1]},
                         {"name", each.name},
                         {"type", each.dataType},
-                        {"kind", kindOf(each.type)},
+                        {"kind", nameOfDataKind(each.type)},
                         {"dims", each.dims},
                         {"local", each.isLocal},
                         {"readOnly", each.isReadOnly},

@@ -22,14 +22,14 @@ namespace {
 using rapid::config::sameName;
 
 enum class JogKind : uint8_t { Joint, Linear, Reorient, External };
-constexpr Word<JogKind> kKinds[] = {{"joint", JogKind::Joint},
-                                    {"linear", JogKind::Linear},
-                                    {"reorient", JogKind::Reorient},
-                                    {"external", JogKind::External}};
-constexpr Word<rt::JogFrame> kFrames[] = {{"world", rt::JogFrame::World},
-                                          {"base", rt::JogFrame::Base},
-                                          {"tool", rt::JogFrame::Tool},
-                                          {"workObject", rt::JogFrame::WorkObject}};
+constexpr Word<JogKind> kJogKinds[] = {{"joint", JogKind::Joint},
+                                       {"linear", JogKind::Linear},
+                                       {"reorient", JogKind::Reorient},
+                                       {"external", JogKind::External}};
+constexpr Word<rt::JogFrame> kJogFrames[] = {{"world", rt::JogFrame::World},
+                                             {"base", rt::JogFrame::Base},
+                                             {"tool", rt::JogFrame::Tool},
+                                             {"workObject", rt::JogFrame::WorkObject}};
 enum class TargetKind : uint8_t { Robtarget, Jointtarget };
 constexpr Word<TargetKind> kTargets[] = {{"robtarget", TargetKind::Robtarget},
                                          {"jointtarget", TargetKind::Jointtarget}};
@@ -91,12 +91,12 @@ class JogArea final : public Area {
 
 Json JogArea::start(const Json& params) {
     const rt::MechanicalUnit& unit = unitOf(params);
-    const JogKind kind = wordOf(params, "kind", kKinds);
+    const JogKind kind = wordOf(params, "kind", kJogKinds);
     const std::vector<double> values = numbersOf(params, "values", robot::kMostJoints);
     for (const double value : values)
         if (std::fabs(value) > 1) badRequest("values are shares of the jog speed, from -1 to 1");
     rt::JogOrder order;
-    if (has(params, "frame")) order.frame = wordOf(params, "frame", kFrames);
+    if (has(params, "frame")) order.frame = wordOf(params, "frame", kJogFrames);
     const auto vector = [&]() -> motion::Vec3 {
         if (values.size() != 3) badRequest("values must be [x, y, z]");
         return {values[0], values[1], values[2]};

@@ -18,7 +18,7 @@ namespace {
 using rapid::config::endsWithName;
 using rapid::config::sameName;
 
-const char* kindOf(service::SymbolType type) {
+const char* nameOfRoutineKind(service::SymbolType type) {
     switch (type) {
     case service::SymbolType::Function: return "func";
     case service::SymbolType::Trap: return "trap";
@@ -153,7 +153,7 @@ Json ModuleArea::routines(const Json& params) {
         const std::size_t begin = each.url.rfind('/', end - 1) + 1;
         routines.push_back({{"module", each.url.substr(begin, end - begin)},
                             {"name", each.name},
-                            {"kind", kindOf(each.type)},
+                            {"kind", nameOfRoutineKind(each.type)},
                             {"line", each.begin.line},
                             {"parameters", each.count}});
     }

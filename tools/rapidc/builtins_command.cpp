@@ -20,7 +20,7 @@ namespace rapidc {
 namespace {
 
 /// Good as long as the program it is taken from.
-struct Row {
+struct BuiltinRow {
     std::string_view name, kind, chapter, status;
 };
 
@@ -37,8 +37,8 @@ std::string_view attributeOf(const rapid::sema::Module& module, const rapid::syn
     return rest.substr(0, stop);
 }
 
-std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
-    std::vector<Row> rows;
+std::vector<BuiltinRow> collect(const rapid::sema::CheckedProgram& program) {
+    std::vector<BuiltinRow> rows;
     for (const rt::NativeEntry& entry : rt::nativeTable())
         rows.push_back({entry.name, entry.kind == rt::NativeKind::Function ? "function" : "instruction",
                         entry.chapter, entry.isImplemented() ? "implemented" : "declared only"});
@@ -52,20 +52,20 @@ std::vector<Row> collect(const rapid::sema::CheckedProgram& program) {
                             attributeOf(*module, data->decl, "manual:"), "implemented"});
         }
     }
-    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    std::sort(rows.begin(), rows.end(), [](const BuiltinRow& a, const BuiltinRow& b) {
         const int order = a.kind.compare(b.kind);
         return order != 0 ? order < 0 : a.name < b.name;
     });
     return rows;
 }
 
-void printTsv(const std::vector<Row>& rows) {
+void printTsv(const std::vector<BuiltinRow>& rows) {
     fmt::print("name\tkind\tchapter\tstatus\n");
-    for (const Row& row : rows)
+    for (const BuiltinRow& row : rows)
         fmt::print("{}\t{}\t{}\t{}\n", row.name, row.kind, row.chapter, row.status);
 }
 
-void printRows(const std::vector<Row>& rows) {
+void printRows(const std::vector<BuiltinRow>& rows) {
     size_t done = 0;
     std::string text;
     const auto column = [&text](std::string_view word, size_t width) {
@@ -73,7 +73,7 @@ void printRows(const std::vector<Row>& rows) {
         text.append(word.size() < width ? width - word.size() : 0, ' ');
         text += ' ';
     };
-    for (const Row& row : rows) {
+    for (const BuiltinRow& row : rows) {
         done += row.status == "implemented" ? 1u : 0u;
         column(row.name, 28);
         column(row.kind, 12);
@@ -153,7 +153,7 @@ void printOrigin(const rapid::sema::Module& module, const rapid::syntax::Node* d
 }
 
 /// Its kind, its state and its declaration.
-void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
+void describe(const rapid::sema::CheckedProgram& program, const BuiltinRow& row) {
     fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
                row.chapter == "-" ? std::string() : fmt::format(", manual {}", row.chapter));
     for (const rapid::sema::Module* module : program.predefinedModules) {
@@ -167,9 +167,9 @@ void describe(const rapid::sema::CheckedProgram& program, const Row& row) {
     }
 }
 
-std::string nearest(const std::vector<Row>& rows, const std::string& name) {
+std::string nearest(const std::vector<BuiltinRow>& rows, const std::string& name) {
     std::vector<std::string> names;
-    for (const Row& row : rows)
+    for (const BuiltinRow& row : rows)
         names.emplace_back(row.name);
     std::vector<std::string> near = rapid::config::nearestNames(name, names);
     if (near.empty()) return {};
@@ -179,16 +179,17 @@ std::string nearest(const std::vector<Row>& rows, const std::string& name) {
 
 /// The rows that the names and patterns mean, each once, in the order of the names. False with a message for one that
 /// means nothing.
-bool select(const std::vector<Row>& rows, const std::vector<std::string>& names, std::vector<Row>& selected) {
+bool select(const std::vector<BuiltinRow>& rows, const std::vector<std::string>& names,
+            std::vector<BuiltinRow>& selected) {
     for (const std::string& name : names) {
         const std::string folded = rapid::sema::foldName(name);
         bool any = false;
-        for (const Row& row : rows) {
+        for (const BuiltinRow& row : rows) {
             const std::string other = rapid::sema::foldName(row.name);
             if (isPattern(name) ? !matches(folded, other) : folded != other) continue;
             any = true;
             const bool known = std::any_of(selected.begin(), selected.end(),
-                                           [&](const Row& one) { return one.name == row.name; });
+                                           [&](const BuiltinRow& one) { return one.name == row.name; });
             if (!known) selected.push_back(row);
             if (!isPattern(name)) break;
         }
@@ -206,8 +207,8 @@ int show(const std::string& format, const std::vector<std::string>& names) {
     Inputs inputs;
     inputs.documented = !names.empty();
     const auto compilation = checkInputs(inputs);
-    const std::vector<Row> rows = collect(*compilation->program);
-    std::vector<Row> selected;
+    const std::vector<BuiltinRow> rows = collect(*compilation->program);
+    std::vector<BuiltinRow> selected;
     if (!select(rows, names, selected)) return kBadUsage;
     if (names.empty()) selected = rows;
     const bool listed =

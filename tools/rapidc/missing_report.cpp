@@ -32,14 +32,14 @@ struct Place {
     bool operator==(const Place& other) const { return (*this <=> other) == 0; }
 };
 
-struct Row {
+struct MissingRow {
     std::string detail;
     std::set<std::string> parts; ///< built-ins that need the option
     std::set<Place> places;
 };
 
 /// By kind, then name.
-using Table = std::map<std::pair<std::string, std::string>, Row>;
+using Table = std::map<std::pair<std::string, std::string>, MissingRow>;
 
 /// The missing thing that a diagnostic reports; an empty kind: nothing.
 struct Finding {
@@ -94,7 +94,7 @@ class MissingReport {
         std::string name = nameIn(d);
         if (d.code == Code::ListedModuleMissing || finding.kind == "module")
             name = std::filesystem::path(name).filename().string();
-        Row& row = table_[{std::string(finding.kind), name}];
+        MissingRow& row = table_[{std::string(finding.kind), name}];
         if (row.detail.empty()) row.detail = finding.detail;
         if (d.code == Code::MayBeDeclared) row.detail = d.args[1] + d.args[2];
         if (finding.isName) names_[sema::foldName(name)].push_back(&row);
@@ -111,7 +111,7 @@ class MissingReport {
                     if (!routine || !routine->predefined || call.module != module) continue;
                     const Place place = placeOf(*module->tree, module->tree->range(*node).begin);
                     if (routine->native && declaredOnly.contains(routine->name)) {
-                        Row& row = table_[{"built-in", routine->name}];
+                        MissingRow& row = table_[{"built-in", routine->name}];
                         row.detail = "not implemented: the program stops when it calls it";
                         row.places.insert(place);
                     }
@@ -122,7 +122,7 @@ class MissingReport {
     void needOption(const sema::RoutineSymbol& routine, const Place& place) {
         const auto& installed = compilation_.options.robotWareOptions;
         if (installed && sema::isOptionInstalled(*installed, routine.option)) return;
-        Row& row = table_[{"option", routine.option}];
+        MissingRow& row = table_[{"option", routine.option}];
         row.detail =
             installed ? "the controller does not have it" : "whether the controller has it is not known";
         row.parts.insert(routine.name);
@@ -143,7 +143,7 @@ class MissingReport {
                 const auto found =
                     names_.find(sema::foldName(tree->source->text().substr(token.offset, token.length)));
                 if (found == names_.end()) continue;
-                for (Row* row : found->second)
+                for (MissingRow* row : found->second)
                     row->places.insert(placeOf(*tree, token.offset));
             }
         }
@@ -159,16 +159,16 @@ class MissingReport {
 
     const Compilation& compilation_;
     Table table_;
-    std::unordered_map<std::string, std::vector<Row*>> names_; ///< in lower case
+    std::unordered_map<std::string, std::vector<MissingRow*>> names_; ///< in lower case
     std::unordered_set<const rapid::SourceFile*> own_;
 };
 
-std::string detailOf(const Row& row) {
+std::string detailOf(const MissingRow& row) {
     if (row.parts.empty()) return row.detail;
     return fmt::format("{}; needed by {}", row.detail, fmt::join(row.parts, ", "));
 }
 
-std::string placesOf(const Row& row, const std::string& root) {
+std::string placesOf(const MissingRow& row, const std::string& root) {
     if (row.places.empty()) return "-";
     const Place& first = *row.places.begin();
     const bool below = !root.empty() && first.file.starts_with(root);

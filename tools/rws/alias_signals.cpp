@@ -11,7 +11,7 @@ namespace rapidc::rws {
 
 namespace {
 
-constexpr std::size_t kPage = 100;
+constexpr std::size_t kMostAliasesOnPage = 100;
 
 /// The signal that a signal variable is connected with; -1: none, or it is not a signal variable.
 rt::SignalId aliasOf(rt::Controller& core, const rt::GlobalDesc& data) {
@@ -24,7 +24,7 @@ rt::SignalId aliasOf(rt::Controller& core, const rt::GlobalDesc& data) {
 }
 
 Reply list(service::VirtualController& controller, const Request& request) {
-    const std::optional<Page> page = readPage(request, kPage, kPage);
+    const std::optional<Page> page = readPage(request, kMostAliasesOnPage, kMostAliasesOnPage);
     if (!page) return badParameter("start or limit", "whole numbers");
     rt::Controller& core = controller.core();
     Document document;

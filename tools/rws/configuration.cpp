@@ -19,7 +19,7 @@ namespace {
 using rapid::config::sameName;
 using service::ConfigurationStore;
 
-constexpr std::size_t kMostOnPage = 20'000; // clients of RWS 1.0 expect all instances at once
+constexpr std::size_t kMostInstancesOnPage = 20'000; // clients of RWS 1.0 expect all instances at once
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20; // bytes
 
 /// RWS 2.0 writes `Attr=[value,1]`.
@@ -29,12 +29,12 @@ std::string valueIn(std::string_view text) {
     return std::string(isList ? text.substr(1, comma - 1) : text);
 }
 
-Failure noDomain(const Request& request) {
+Failure noConfigurationDomain(const Request& request) {
     return {ReturnCode::NotFound, fmt::format("unknown configuration domain {}", request.parameter("domain")),
             0};
 }
 
-std::string hrefOf(const std::string& domain, const std::string& type) {
+std::string instancesHref(const std::string& domain, const std::string& type) {
     return fmt::format("/rw/cfg/{}/{}/instances", domain, escapedSegment(type));
 }
 
@@ -52,10 +52,10 @@ Reply Configuration::domains(const Request&) const {
 
 Reply Configuration::types(const Request& request) const {
     const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-    if (domain.empty()) return Reply::refuse(noDomain(request));
+    if (domain.empty()) return Reply::refuse(noConfigurationDomain(request));
     const std::vector<std::string> all = store_.types(domain);
     ListPage page;
-    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, all.size(), kMostInstancesOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
@@ -140,14 +140,14 @@ Reply Configuration::instances(const Request& request) const {
     const std::string type = request.parameter("type");
     const std::vector<Instance> all = store_.instances(domain, type);
     ListPage page;
-    if (const auto failure = readListPage(request, all.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, all.size(), kMostInstancesOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i) {
         Entry& entry = document.add("cfg-dt-instance-li", all[i].name);
-        entry.self = hrefOf(domain, type) + "/" + escapedSegment(all[i].name);
+        entry.self = instancesHref(domain, type) + "/" + escapedSegment(all[i].name);
         describe(request, all[i], entry);
     }
     return Reply::of(std::move(document));
@@ -189,7 +189,7 @@ Reply Configuration::create(const Request& request) {
     const service::Refusal refusal = store_.create(domain, request.parameter("type"), name, values);
     if (!refusal.empty()) return Reply::refuse(ReturnCode::BadParameter, refusal);
     Reply reply = Reply::done(201);
-    reply.location = hrefOf(domain, request.parameter("type")) + "/" + escapedSegment(name);
+    reply.location = instancesHref(domain, request.parameter("type")) + "/" + escapedSegment(name);
     return reply;
 }
 
@@ -249,7 +249,7 @@ Reply Configuration::load(const Request& request, bool tryOnly) {
 
 Reply Configuration::save(const Request& request) const {
     const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-    if (domain.empty()) return Reply::refuse(noDomain(request));
+    if (domain.empty()) return Reply::refuse(noConfigurationDomain(request));
     const auto file = volumePath(controller_, fieldOf(request, "filepath"));
     if (!file) return badParameter("filepath", "/fileservice/$HOME/name.cfg");
     std::string text = store_.text(domain);
@@ -269,7 +269,7 @@ void Configuration::subscribe(Subscribables& subscribables) {
         {"/rw/cfg/{domain}", "", false, std::nullopt,
          [this](const Request& request, const Changed& changed, Subscription& out) -> std::optional<Failure> {
              const std::string domain = ConfigurationStore::domainNamed(request.parameter("domain"));
-             if (domain.empty()) return noDomain(request);
+             if (domain.empty()) return noConfigurationDomain(request);
              // the text is made only when something of the whole configuration has changed
              const auto read = [this, domain, seen = store_.changes(), text = store_.text(domain),
                                 count = uint64_t{0}]() mutable {

@@ -17,7 +17,7 @@ using rapid::config::sameName;
 using service::EventDomain;
 using service::EventMessage;
 
-constexpr std::size_t kMostOnPage = 50;
+constexpr std::size_t kMostMessagesOnPage = 50;
 
 /// Controllers give the arguments of texts with their types.
 const char* typeOf(const std::string& argument) {
@@ -58,7 +58,7 @@ std::optional<int> domainIn(const Request& request) {
     return isKnown ? std::optional(static_cast<int>(*number)) : std::nullopt;
 }
 
-Reply noDomain(const Request& request) {
+Reply noLogDomain(const Request& request) {
     return Reply::refuse(ReturnCode::NotFound,
                          fmt::format("the event log has no domain {}", request.parameter("domain")));
 }
@@ -111,7 +111,7 @@ Reply EventLogPages::domain(int number) const {
 
 Reply EventLogPages::list(const Request& request) const {
     const auto domain = domainIn(request);
-    if (!domain) return noDomain(request);
+    if (!domain) return noLogDomain(request);
     if (sameName(request.query.text("resource"), "info")) return this->domain(*domain);
     const std::string order = request.query.text("order"), after = request.query.text("elogseqnum");
     if (!order.empty() && !sameName(order, "lifo") && !sameName(order, "fifo"))
@@ -125,7 +125,7 @@ Reply EventLogPages::list(const Request& request) const {
     const std::size_t total = all.size() - skipped;
     ListPage page;
     const bool countsPages = request.dialect == Dialect::V2;
-    if (const auto failure = readListPage(request, total, kMostOnPage, page, countsPages))
+    if (const auto failure = readListPage(request, total, kMostMessagesOnPage, page, countsPages))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
@@ -147,7 +147,7 @@ Reply EventLogPages::list(const Request& request) const {
 Reply EventLogPages::one(const Request& request) const {
     const bool byNumberAlone = request.parameters.count("domain") == 0;
     const auto domain = byNumberAlone ? std::optional(0) : domainIn(request);
-    if (!domain) return noDomain(request);
+    if (!domain) return noLogDomain(request);
     const auto number = countIn(request.parameter("number"));
     const auto message = number ? journal_.find(*domain, *number) : nullptr;
     if (!message)
@@ -163,7 +163,7 @@ Reply EventLogPages::one(const Request& request) const {
 
 Reply EventLogPages::clear(const Request& request) {
     const auto domain = domainIn(request);
-    if (!domain) return noDomain(request);
+    if (!domain) return noLogDomain(request);
     journal_.clear(*domain);
     return Reply::done();
 }

@@ -15,7 +15,7 @@ using service::Change;
 using service::ExecutionMode;
 using service::StopMode;
 
-constexpr const char* kPath = "/rw/rapid/execution";
+constexpr const char* kExecutionPath = "/rw/rapid/execution";
 
 template <class Value> struct Word {
     const char* text;
@@ -57,23 +57,25 @@ const char* cycleOf(const service::VirtualController& controller) {
 } // namespace
 
 void Execution::addTo(Router& router, Subscribables& subscribables) {
-    router.getBoth(kPath, [this](const Request&) {
+    router.getBoth(kExecutionPath, [this](const Request&) {
         Document document;
         document.add("rap-execution", "execution")
             .value("ctrlexecstate", stateOf(controller_))
             .value("cycle", cycleOf(controller_));
         return Reply::of(std::move(document));
     });
-    addOrder(router, kPath, "start", "start", [this](const Request& request) { return start(request); });
-    addOrder(router, kPath, "stop", "stop", [this](const Request& request) { return stop(request); });
-    addOrder(router, kPath, "resetpp", "resetpp", access_.guarded(Domain::Rapid, [this](const Request&) {
-        return replyTo(controller_.resetPointers());
-    }));
-    addOrder(router, kPath, "setcycle", "cycle",
+    addOrder(router, kExecutionPath, "start", "start",
+             [this](const Request& request) { return start(request); });
+    addOrder(router, kExecutionPath, "stop", "stop",
+             [this](const Request& request) { return stop(request); });
+    addOrder(router, kExecutionPath, "resetpp", "resetpp",
+             access_.guarded(Domain::Rapid,
+                             [this](const Request&) { return replyTo(controller_.resetPointers()); }));
+    addOrder(router, kExecutionPath, "setcycle", "cycle",
              access_.guarded(Domain::Rapid, [this](const Request& request) { return setCycle(request); }));
-    addOrder(router, kPath, "startprodentry", "startprodentry",
+    addOrder(router, kExecutionPath, "startprodentry", "startprodentry",
              access_.guarded(Domain::Rapid, [this](const Request&) { return startFromMain(); }));
-    addOrder(router, kPath, "holdtorun", "holdtorun", [](const Request& request) {
+    addOrder(router, kExecutionPath, "holdtorun", "holdtorun", [](const Request& request) {
         const std::string state = request.form.text("state");
         if (state != "press" && state != "held" && state != "release")
             return badParameter("state", "press, held or release");
@@ -93,12 +95,12 @@ void Execution::addTo(Router& router, Subscribables& subscribables) {
                 changed, out);
         };
     };
-    subscribables.add({kPath,
+    subscribables.add({kExecutionPath,
                        "ctrlexecstate",
                        false,
                        {},
                        watch("rap-ctrlexecstate-ev", "ctrlexecstate", Change::Execution, stateOf)});
-    subscribables.add({kPath,
+    subscribables.add({kExecutionPath,
                        "rapidexeccycle",
                        false,
                        {},

@@ -19,7 +19,7 @@ using service::FileEntry;
 using service::FileProblem;
 using service::FileResult;
 
-constexpr std::size_t kMostOnPage = 100;
+constexpr std::size_t kMostFilesOnPage = 100;
 
 struct ContentType {
     const char *ending, *type;
@@ -52,13 +52,6 @@ void describe(const FileEntry& file, Entry& entry) {
     if (!file.isFolder)
         entry.value("fs-size", fmt::format("{}", file.size))
             .value("fs-readonly", file.isReadOnly ? "true" : "false");
-}
-
-std::string hrefOf(const std::string& path) {
-    std::string href = "/fileservice";
-    for (const std::string& segment : splitPath(path))
-        href += '/' + escapedSegment(segment);
-    return href;
 }
 
 } // namespace
@@ -112,14 +105,14 @@ Reply FileService::get(const Request& request) const {
     std::vector<FileEntry> entries;
     if (const FileResult listed = volumes_.list(path, entries); !listed.isDone()) return refuseFile(listed);
     ListPage page;
-    if (const auto failure = readListPage(request, entries.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, entries.size(), kMostFilesOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i) {
         Entry& shown = document.add(entries[i].isFolder ? "fs-dir" : "fs-file", entries[i].name);
-        shown.self = hrefOf(path + "/" + entries[i].name);
+        shown.self = hrefBelow("/fileservice", path + "/" + entries[i].name);
         describe(entries[i], shown);
     }
     return Reply::of(std::move(document));

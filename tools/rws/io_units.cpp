@@ -13,7 +13,7 @@ namespace {
 using rapid::config::containsName;
 using rapid::config::sameName;
 
-constexpr std::size_t kMostOnPage = 100;
+constexpr std::size_t kMostUnitsOnPage = 100;
 
 Failure noNetwork(const Request& request) {
     return {ReturnCode::NotFound, fmt::format("unknown I/O network {}", request.parameter("network")), 0};
@@ -38,7 +38,7 @@ void IoUnits::describeNetwork(const std::string& name, Entry& entry) const {
 Reply IoUnits::networks(const Request& request) const {
     const std::vector<std::string> names = devices().networkNames();
     ListPage page;
-    if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, names.size(), kMostUnitsOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
@@ -117,7 +117,7 @@ Reply IoUnits::listDevices(const Request& request) const {
     for (std::string& name : devices().deviceNames())
         if (network.empty() || sameName(devices().networkOf(name), network)) names.push_back(std::move(name));
     ListPage page;
-    if (const auto failure = readListPage(request, names.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, names.size(), kMostUnitsOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;
@@ -164,7 +164,7 @@ Reply IoUnits::search(const Request& request) const {
         const bool isNetwork = network.empty() || sameName(devices().networkOf(name), network);
         if (!containsName(name, wanted) || !isState || !isNetwork) continue;
         describeDevice(name, document.add("ios-device-li", devices().networkOf(name) + "/" + name));
-        if (document.entries.size() == kMostOnPage) break;
+        if (document.entries.size() == kMostUnitsOnPage) break;
     }
     return Reply::of(std::move(document));
 }

@@ -11,13 +11,13 @@ namespace rapidc::rws {
 
 namespace {
 
-using Named = std::pair<const char*, std::vector<Domain>>;
+using NamedDomains = std::pair<const char*, std::vector<Domain>>;
 
-const std::vector<Named>& domainsOf(Dialect dialect) {
-    static const std::vector<Named> kOld{
+const std::vector<NamedDomains>& domainsOf(Dialect dialect) {
+    static const std::vector<NamedDomains> kOld{
         {"cfg", {Domain::Cfg}}, {"motion", {Domain::Motion}}, {"rapid", {Domain::Rapid}}};
-    static const std::vector<Named> kNew{{"edit", {Domain::Cfg, Domain::Rapid}},
-                                         {"motion", {Domain::Motion}}};
+    static const std::vector<NamedDomains> kNew{{"edit", {Domain::Cfg, Domain::Rapid}},
+                                                {"motion", {Domain::Motion}}};
     return dialect == Dialect::V1 ? kOld : kNew;
 }
 
@@ -34,7 +34,7 @@ std::vector<Domain> asked(const Request& request) {
     return all;
 }
 
-Reply noDomain(const Request& request) {
+Reply noMastershipDomain(const Request& request) {
     return Reply::refuse(ReturnCode::NotFound, request.dialect == Dialect::V1
                                                    ? "The domains are cfg, motion and rapid"
                                                    : "The domains are edit and motion");
@@ -128,7 +128,7 @@ Reply MastershipResources::list(const Request& request) const {
 
 Reply MastershipResources::show(const Request& request) const {
     const std::vector<Domain> domains = asked(request);
-    if (domains.empty()) return noDomain(request);
+    if (domains.empty()) return noMastershipDomain(request);
     Document document;
     document.entries.push_back(entryOf("msh-resource", request, request.parameter("domain"), domains));
     return Reply::of(std::move(document));
@@ -136,19 +136,19 @@ Reply MastershipResources::show(const Request& request) const {
 
 Reply MastershipResources::request(const Request& request) {
     const std::vector<Domain> domains = asked(request);
-    if (domains.empty()) return noDomain(request);
+    if (domains.empty()) return noMastershipDomain(request);
     return mastership_.request(domains, request) ? Reply::done() : heldByOther();
 }
 
 Reply MastershipResources::release(const Request& request) {
     const std::vector<Domain> domains = asked(request);
-    if (domains.empty()) return noDomain(request);
+    if (domains.empty()) return noMastershipDomain(request);
     return mastership_.release(domains, request.session->number) ? Reply::done() : heldByOther();
 }
 
 Reply MastershipResources::requestWithId(const Request& request) {
     const std::vector<Domain> domains = asked(request);
-    if (domains.empty()) return noDomain(request);
+    if (domains.empty()) return noMastershipDomain(request);
     const int id = mastership_.requestWithId(domains, request);
     if (id == 0) return heldByOther();
     Document document;
@@ -158,7 +158,7 @@ Reply MastershipResources::requestWithId(const Request& request) {
 
 Reply MastershipResources::releaseWithId(const Request& request) {
     const std::vector<Domain> domains = asked(request);
-    if (domains.empty()) return noDomain(request);
+    if (domains.empty()) return noMastershipDomain(request);
     // The reply of request-with-id spells it with a hyphen.
     const char* field = request.form.has("mastership-id") ? "mastership-id" : "mastershipid";
     const auto id = wholeIn(request.form.text(field), 1, INT32_MAX);

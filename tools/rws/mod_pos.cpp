@@ -19,23 +19,24 @@ namespace {
 
 using rapid::config::sameName;
 
-struct Named {
+struct NamedData {
     service::DataPath path;
     service::FoundData data;
 };
 
 /// The data that are named in the range, in order, each once.
-std::vector<Named> namedIn(service::VirtualController& controller, const rt::Task& task,
-                           const std::string& module, const std::string& part) {
+std::vector<NamedData> namedIn(service::VirtualController& controller, const rt::Task& task,
+                               const std::string& module, const std::string& part) {
     rapid::diag::Sink ignored;
     const auto tree =
         rapid::syntax::parse(std::make_shared<const rapid::SourceFile>("part.modx", part), ignored);
-    std::vector<Named> found;
+    std::vector<NamedData> found;
     for (const rapid::syntax::Token& token : tree->tokens) {
         if (token.kind != rapid::syntax::TokenKind::Identifier) continue;
         const std::string name(tree->source->text().substr(token.offset, token.length));
-        const bool isKnown = std::any_of(found.begin(), found.end(),
-                                         [&](const Named& each) { return sameName(each.path.name, name); });
+        const bool isKnown = std::any_of(found.begin(), found.end(), [&](const NamedData& each) {
+            return sameName(each.path.name, name);
+        });
         if (isKnown) continue;
         for (const std::string& where : {module, std::string()}) {
             service::DataPath path{task.name(), where, {}, name, {}};
@@ -48,13 +49,13 @@ std::vector<Named> namedIn(service::VirtualController& controller, const rt::Tas
     return found;
 }
 
-bool hasType(const Named& named, const char* type) {
+bool hasType(const NamedData& named, const char* type) {
     return named.data.dims.empty() && sameName(named.data.type->baseName, type);
 }
 
 /// The first data of the type; null: none.
-template <class Value> Value* firstOf(const std::vector<Named>& named, const char* type) {
-    for (const Named& each : named)
+template <class Value> Value* firstOf(const std::vector<NamedData>& named, const char* type) {
+    for (const NamedData& each : named)
         if (hasType(each, type)) return static_cast<Value*>(each.data.data);
     return nullptr;
 }
@@ -66,11 +67,11 @@ std::string modifyPositions(service::VirtualController& controller, rt::Task& ta
     const std::optional<std::string> part = partOf(text, range);
     if (!part) return "the range does not lie in the module";
     if (!task.isMotionTask()) return fmt::format("task {} moves no robot", task.name());
-    const std::vector<Named> named = namedIn(controller, task, module, *part);
+    const std::vector<NamedData> named = namedIn(controller, task, module, *part);
     auto* tool = firstOf<rt::data::Tooldata>(named, "tooldata");
     auto* object = firstOf<rt::data::Wobjdata>(named, "wobjdata");
     bool any = false;
-    for (const Named& each : named) {
+    for (const NamedData& each : named) {
         const bool isRobtarget = hasType(each, "robtarget");
         if (!isRobtarget && !hasType(each, "jointtarget")) continue;
         rt::data::Robtarget target{};

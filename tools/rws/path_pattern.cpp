@@ -6,16 +6,6 @@
 
 namespace rapidc::rws {
 
-std::vector<std::string> splitPath(std::string_view path) {
-    std::vector<std::string> segments;
-    while (!path.empty()) {
-        const std::size_t end = std::min(path.find('/'), path.size());
-        if (end > 0) segments.emplace_back(path.substr(0, end));
-        path.remove_prefix(std::min(end + 1, path.size()));
-    }
-    return segments;
-}
-
 PathPattern::PathPattern(std::string_view pattern) {
     for (const std::string& segment : splitPath(pattern)) {
         const bool isParameter = segment.size() > 2 && segment.front() == '{' && segment.back() == '}';

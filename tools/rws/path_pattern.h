@@ -2,6 +2,8 @@
 // PathPattern: "/rw/rapid/tasks/{task}/pcp", compiled. The paths of Robot Web Services consist of few fixed words; letter case makes no
 // difference for them.
 
+#include "config/text_util.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -13,8 +15,7 @@ namespace rapidc::rws {
 
 using Parameters = std::map<std::string, std::string, std::less<>>;
 
-/// The segments of a path that is decoded already; empty ones do not count.
-std::vector<std::string> splitPath(std::string_view path);
+using rapid::config::splitPath;
 
 class PathPattern {
   public:

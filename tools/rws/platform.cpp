@@ -19,7 +19,7 @@ namespace {
 
 using rapid::config::sameName;
 
-constexpr std::size_t kMostOnPage = 50;
+constexpr std::size_t kMostInterfaces = 50;
 
 Handler nothing() {
     return [](const Request&) { return Reply::of(Document{}); };
@@ -229,7 +229,7 @@ Reply Platform::cameras() const {
     Document document;
     document.add("number-of-cameras-li", "number-of-cameras")
         .value("number-of-cameras", fmt::format("{}", names.size()));
-    for (std::size_t i = 0; i < names.size() && i < kMostOnPage; ++i) {
+    for (std::size_t i = 0; i < names.size() && i < kMostInterfaces; ++i) {
         const std::string& name = names.name(static_cast<int>(i));
         Entry& entry = document.add("vision-system-li", name);
         entry.self = "/rw/vision/" + escapedSegment(name);

@@ -16,7 +16,7 @@ using rapid::config::sameName;
 using service::Change;
 using service::PointerPlace;
 
-constexpr const char* kPath = "/rw/rapid/tasks/{task}/pcp";
+constexpr const char* kPointersPath = "/rw/rapid/tasks/{task}/pcp";
 
 std::string position(uint32_t line, uint32_t column) {
     return line == 0 ? std::string() : fmt::format("{},{}", line, column);
@@ -60,10 +60,10 @@ Entry eventOf(const char* type, const char* title, const std::string& task,
 } // namespace
 
 void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
-    router.getBoth(kPath, [this](const Request& request) { return show(request); });
+    router.getBoth(kPointersPath, [this](const Request& request) { return show(request); });
     const auto order = [&](const char* oldName, const char* newName,
                            Reply (ProgramPointers::*handler)(const Request&)) {
-        addOrder(router, kPath, oldName, newName,
+        addOrder(router, kPointersPath, oldName, newName,
                  access_.guarded(Domain::Rapid, [this, handler](const Request& request) {
                      return (this->*handler)(request);
                  }));
@@ -72,12 +72,12 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
     order("set-pp-routine-from-url", "routine-from-url", &ProgramPointers::toUrl);
     order("set-pp-cursor", "cursor", &ProgramPointers::toCursor);
     order("set-pp-main", "reset", &ProgramPointers::toMain);
-    router.action(kPath, "reset",
+    router.action(kPointersPath, "reset",
                   access_.guarded(Domain::Rapid, [this](const Request& request) { return toMain(request); }));
-    addOrder(router, kPath, "next-inst", "next-inst",
+    addOrder(router, kPointersPath, "next-inst", "next-inst",
              access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, true); }));
     addOrder(
-        router, kPath, "prev-inst", "prev-inst",
+        router, kPointersPath, "prev-inst", "prev-inst",
         access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, false); }));
     const auto watch = [this](const char* type, const char* title, Change change, auto read) {
         return [this, type, title, change, read](const Request& request, const Changed& changed,
@@ -95,13 +95,13 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
         };
     };
     subscribables.add(
-        {kPath,
+        {kPointersPath,
          "programpointerchange",
          false,
          {},
          watch("rap-pp-ev", "programpointerchange", Change::ProgramPointer, service::programPointer)});
     subscribables.add(
-        {kPath,
+        {kPointersPath,
          "motionpointerchange",
          false,
          {},

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using rapid::config::sameName;
 
-constexpr const char* kPath = "/rw/rapid/tasks/{task}/program";
+constexpr const char* kProgramPath = "/rw/rapid/tasks/{task}/program";
 
 bool isFileName(const std::string& name) {
     return !name.empty() && name.size() <= 80 && name.find_first_of("/\\:\n\r") == std::string::npos &&
@@ -36,14 +36,14 @@ std::string programFile(const std::vector<std::string>& files) {
 } // namespace
 
 void Programs::addTo(Router& router) {
-    router.getBoth(kPath, [this](const Request& request) { return show(request); });
+    router.getBoth(kProgramPath, [this](const Request& request) { return show(request); });
     const auto order = [&](std::initializer_list<const char*> oldNames, const char* newName,
                            Reply (Programs::*handler)(const Request&), bool changes) {
         Handler call = [this, handler](const Request& request) { return (this->*handler)(request); };
         if (changes) call = access_.guarded(Domain::Rapid, std::move(call));
         for (const char* name : oldNames)
-            router.action(kPath, name, call);
-        router.post(Dialect::V2, std::string(kPath) + "/" + newName, call);
+            router.action(kProgramPath, name, call);
+        router.post(Dialect::V2, std::string(kProgramPath) + "/" + newName, call);
     };
     order({"loadprog", "load"}, "load", &Programs::load, true);
     order({"save", "saveprog"}, "save", &Programs::save, false);
@@ -54,7 +54,7 @@ void Programs::addTo(Router& router) {
         if (taskOf(controller_, request) == nullptr) return noTask(request);
         return Reply::of(Document{}); // a program with mistakes is not taken, so there never are any
     };
-    router.getBoth(std::string(kPath) + "/builderror", errors);
+    router.getBoth(std::string(kProgramPath) + "/builderror", errors);
     router.getBoth("/rw/rapid/tasks/{task}/builderror", errors);
     addBreakpoints(router);
 }
@@ -65,8 +65,8 @@ void Programs::addBreakpoints(Router& router) {
         access_.guarded(Domain::Rapid, [this](const Request& request) { return setBreak(request); });
     const Handler remove =
         access_.guarded(Domain::Rapid, [this](const Request& request) { return removeBreak(request); });
-    const std::string oldPath = std::string(kPath) + "/breakpoint",
-                      newPath = std::string(kPath) + "/breakpoints";
+    const std::string oldPath = std::string(kProgramPath) + "/breakpoint",
+                      newPath = std::string(kProgramPath) + "/breakpoints";
     router.get(Dialect::V1, oldPath, list);
     router.get(Dialect::V1, "/rw/rapid/tasks/{task}/breakpoints", list);
     router.action(oldPath, "set", set);

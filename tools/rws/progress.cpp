@@ -9,7 +9,7 @@ namespace rapidc::rws {
 
 namespace {
 
-constexpr std::string_view kPath = "/progress/";
+constexpr std::string_view kProgressPath = "/progress/";
 
 uint64_t numberIn(const Request& request) {
     return countIn(request.parameter("id")).value_or(0);
@@ -24,11 +24,11 @@ Failure unknown(const Request& request) {
 std::string Progress::begin(const std::string& operation) {
     works_[++last_] = {operation, false, ReturnCode::Success};
     if (works_.size() > kKept) works_.erase(works_.begin());
-    return fmt::format("{}{}", kPath, last_);
+    return fmt::format("{}{}", kProgressPath, last_);
 }
 
 void Progress::done(const std::string& path, ReturnCode code) {
-    const auto number = countIn(std::string_view(path).substr(std::min(kPath.size(), path.size())));
+    const auto number = countIn(std::string_view(path).substr(std::min(kProgressPath.size(), path.size())));
     const auto found = works_.find(number.value_or(0));
     if (found == works_.end()) return;
     found->second.isReady = true;
@@ -62,7 +62,7 @@ void Progress::addTo(Router& router, Subscribables& subscribables) {
         Document document;
         for (const auto& [number, work] : works_) {
             Entry& entry = document.add("progress-li", work.operation);
-            entry.self = fmt::format("{}{}", kPath, number);
+            entry.self = fmt::format("{}{}", kProgressPath, number);
             entry.value("state", work.isReady ? "ready" : "pending");
         }
         return Reply::of(std::move(document));

@@ -18,28 +18,10 @@ namespace {
 using rapid::config::lowerCase;
 using rapid::config::sameName;
 
-constexpr std::size_t kMostQueues = 100, kMostMessages = 1000;
+constexpr std::size_t kMostQueues = 100, kMostQueuedMessages = 1000;
 constexpr std::size_t kLargestMessage = 65536; // bytes
 constexpr std::size_t kLongestName = 80;
 constexpr double kLongestWait = 10; // s; a worker waits meanwhile
-
-constexpr rt::TypeDesc kBasic[] = {
-    {"num", "num", rt::DescKind::Num, 4, 0, {}, nullptr, nullptr, nullptr},
-    {"dnum", "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr, nullptr, nullptr},
-    {"bool", "bool", rt::DescKind::Bool, 1, 0, {}, nullptr, nullptr, nullptr},
-    {"string", "string", rt::DescKind::String, sizeof(rt::String), 0, {}, nullptr, nullptr, nullptr},
-};
-
-/// A type that a message may have: the basic ones, and those that data in memory have. Null: there is none.
-const rt::TypeDesc* typeNamed(rt::Controller& core, std::string_view name) {
-    for (const rt::TypeDesc& type : kBasic)
-        if (sameName(type.name, name)) return &type;
-    for (const rt::GlobalDesc* data : core.tables().globals()) {
-        const rt::TypeDesc& type = rt::lib::elementType(*data->type);
-        if (sameName(type.name, name)) return &type;
-    }
-    return nullptr;
-}
 
 /// The value of a message as RAPID text.
 std::string valueText(const rt::lib::Message& message) {
@@ -179,7 +161,7 @@ Reply Queues::create(const Request& request) {
     if (!size) return badParameter("dipc-queue-size", "a positive number");
     const int64_t messages = *size >= *bytes && *size > 100 ? *size / *bytes : *size;
     queue->mostBytes = static_cast<std::size_t>(*bytes);
-    queue->mostMessages = std::clamp<std::size_t>(static_cast<std::size_t>(messages), 1, kMostMessages);
+    queue->mostMessages = std::clamp<std::size_t>(static_cast<std::size_t>(messages), 1, kMostQueuedMessages);
     if (find(queue->name) || rapidQueues().findByName(queue->name) != 0)
         return badParameter("dipc-queue-name", "a name that no queue has yet");
     {
@@ -219,7 +201,7 @@ Reply Queues::sendToTask(const Request& request, rt::lib::MessageQueue& queue) {
     const std::string data = request.form.text("dipc-data");
     const std::size_t semicolon = data.find(';');
     const rt::TypeDesc* type =
-        semicolon == std::string::npos ? nullptr : typeNamed(controller_.core(), data.substr(0, semicolon));
+        semicolon == std::string::npos ? nullptr : service::typeNamed(controller_, data.substr(0, semicolon));
     if (type == nullptr) return badParameter("dipc-data", "TYPE;VALUE, such as num;5 or string;\"text\"");
     std::vector<char> bytes(type->size);
     if (!rt::sourceToValue(std::string_view(data).substr(semicolon + 1), bytes.data(), *type))

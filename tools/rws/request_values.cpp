@@ -98,6 +98,13 @@ std::string escapedSegment(std::string_view segment) {
     return http::encodePercent(segment, "-._~$");
 }
 
+std::string hrefBelow(std::string_view root, std::string_view name) {
+    std::string href(root);
+    for (const std::string& segment : splitPath(name))
+        href += '/' + escapedSegment(segment);
+    return href;
+}
+
 std::optional<Page> readPage(const Request& request, std::size_t standardLimit, std::size_t mostLimit) {
     const std::string startText = fieldOf(request, "start"), limitText = fieldOf(request, "limit");
     const auto start = startText.empty() ? std::optional<std::size_t>(0) : countIn(startText);

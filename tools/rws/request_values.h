@@ -52,5 +52,7 @@ std::optional<Failure> readListPage(const Request& request, std::size_t total, s
 std::string fieldOf(const Request& request, std::string_view name);
 /// A segment of a path, with everything escaped that is not plain.
 std::string escapedSegment(std::string_view segment);
+/// The link to a resource below `root`, whose name may have several segments ("A/b/c"); they are escaped one by one.
+std::string hrefBelow(std::string_view root, std::string_view name);
 
 } // namespace rapidc::rws

@@ -14,21 +14,13 @@ namespace {
 using rapid::config::containsName;
 using rapid::config::sameName;
 
-constexpr std::size_t kMostOnPage = 100;
+constexpr std::size_t kMostSignalsOnPage = 100;
 constexpr const char* kSimulated = "simulated";
 constexpr const char* kNotSimulated = "not simulated";
 
-/// "A/b/c" as segments after the path of all signals.
-std::string hrefOf(const std::string& title) {
-    std::string href = "/rw/iosystem/signals";
-    for (const std::string& segment : splitPath(title))
-        href += '/' + escapedSegment(segment);
-    return href;
-}
-
 Entry& describe(const rt::IoSystem& io, rt::SignalId signal, Entry& entry) {
     const rt::SignalConfig& config = io.config(signal);
-    entry.self = hrefOf(entry.title);
+    entry.self = hrefBelow("/rw/iosystem/signals", entry.title);
     entry.value("name", config.name)
         .value("type", rt::signalTypeName(config.type))
         .value("category", config.category);
@@ -86,7 +78,7 @@ std::optional<Failure> Signals::find(const Request& request, rt::SignalId& signa
 
 Reply Signals::list(const Request& request, const std::vector<rt::SignalId>& signals) const {
     ListPage page;
-    if (const auto failure = readListPage(request, signals.size(), kMostOnPage, page))
+    if (const auto failure = readListPage(request, signals.size(), kMostSignalsOnPage, page))
         return Reply::refuse(*failure);
     Document document;
     document.place = Document::Place::Resources;

@@ -14,11 +14,11 @@ namespace rapidc::rws {
 
 namespace {
 
-constexpr std::size_t kMostResources = 1000; ///< in a group
-constexpr std::size_t kMostGroups = 32;      ///< of a session
-constexpr std::size_t kMostMessages = 1000;  ///< of a topic within a period
-constexpr std::size_t kMostSpent = 500;      ///< groups whose socket has closed
-constexpr std::size_t kMostImmediate = 64;   ///< resources of priority 2 in a group
+constexpr std::size_t kMostResources = 1000;        ///< in a group
+constexpr std::size_t kMostGroups = 32;             ///< of a session
+constexpr std::size_t kMostMessagesInPeriod = 1000; ///< of a topic within a period
+constexpr std::size_t kMostSpent = 500;             ///< groups whose socket has closed
+constexpr std::size_t kMostImmediate = 64;          ///< resources of priority 2 in a group
 
 Failure bad(std::string message) {
     return {ReturnCode::BadParameter, std::move(message), 400};
@@ -384,7 +384,7 @@ void Subscriptions::changed(const std::shared_ptr<Topic>& topic, Entry entry) {
         for (int priority = 0; priority < 2; ++priority) {
             if (topic->outlets[priority]->empty()) continue;
             std::deque<Entry>& messages = topic->messages[priority];
-            if (messages.size() >= kMostMessages) { // more than anybody reads within a period
+            if (messages.size() >= kMostMessagesInPeriod) { // more than anybody reads within a period
                 messages.back() = entry;
                 continue;
             }

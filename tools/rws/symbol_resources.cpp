@@ -17,7 +17,7 @@ using service::DataPath;
 using service::FoundData;
 using service::SymbolInfo;
 
-constexpr std::size_t kPage = 100, kLargestPage = 200;
+constexpr std::size_t kSymbolsOnPage = 100, kMostSymbolsOnPage = 200;
 
 class DataWatch final : public Watch {
   public:
@@ -38,22 +38,6 @@ Entry valueEntry(const char* type, const std::string& url, const std::string& va
     entry.title = url;
     entry.value("value", value);
     return entry;
-}
-
-/// The description of a type by its name, from whatever data have it; null: no data in memory have it.
-const rt::TypeDesc* typeNamed(rt::Controller& core, const std::string& name) {
-    const auto inside = [&](const auto& self, const rt::TypeDesc* type) -> const rt::TypeDesc* {
-        if (type == nullptr) return nullptr;
-        if (type->kind == rt::DescKind::Array) return self(self, type->fields[0]);
-        if (sameName(type->name, name)) return type;
-        if (type->kind != rt::DescKind::Record) return nullptr;
-        for (uint32_t i = 0; i < type->count; ++i)
-            if (const rt::TypeDesc* found = self(self, type->fields[i])) return found;
-        return nullptr;
-    };
-    for (const rt::GlobalDesc* global : core.tables().globals())
-        if (const rt::TypeDesc* found = inside(inside, global->type)) return found;
-    return nullptr;
 }
 
 /// "num{3,4}" -> "num" and its dimensions. False: it is no such text.
@@ -151,17 +135,7 @@ Reply SymbolResources::validate(const Request& request) {
     std::vector<int32_t> dims;
     if (!splitType(given, name, dims)) return badParameter("datatype", "a data type such as num or num{3}");
     if (!request.form.has("value")) return badParameter("value", "a value as RAPID text");
-    static constexpr rt::TypeDesc kNum{"num", "num", rt::DescKind::Num, 4, 0, {}, nullptr, nullptr, nullptr};
-    static constexpr rt::TypeDesc kDnum{"dnum",  "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr,
-                                        nullptr, nullptr};
-    static constexpr rt::TypeDesc kBool{"bool",  "bool", rt::DescKind::Bool, 1, 0, {}, nullptr,
-                                        nullptr, nullptr};
-    static constexpr rt::TypeDesc kString{
-        "string", "string", rt::DescKind::String, sizeof(rt::String), 0, {}, nullptr, nullptr, nullptr};
-    const rt::TypeDesc* type = nullptr;
-    for (const rt::TypeDesc* known : {&kNum, &kDnum, &kBool, &kString})
-        if (sameName(name, known->name)) type = known;
-    if (type == nullptr) type = typeNamed(controller_.core(), name);
+    const rt::TypeDesc* type = service::typeNamed(controller_, name);
     if (type == nullptr) return badParameter("datatype", "a data type that the program uses");
     const std::string problem = service::checkValue(*type, dims, withExponents(request.form.text("value")));
     return problem.empty() ? Reply::done() : Reply::refuse(ReturnCode::BadParameter, problem);
@@ -180,7 +154,7 @@ Reply SymbolResources::search(const Request& request) {
     std::string problem;
     const std::optional<service::SymbolQuery> query = readQuery(request.form, problem);
     if (!query) return Reply::refuse(ReturnCode::BadParameter, problem);
-    const std::optional<Page> page = readPage(request, kPage, kLargestPage);
+    const std::optional<Page> page = readPage(request, kSymbolsOnPage, kMostSymbolsOnPage);
     if (!page) return Reply::refuse(ReturnCode::BadPage, "start or limit is not a number");
     std::vector<SymbolInfo> found;
     if (!symbols_.search(*query, found))

@@ -16,17 +16,6 @@ namespace {
 
 using rt::sameName;
 
-/// Divided by slashes, but not inside braces.
-std::vector<std::string> namesIn(std::string_view text) {
-    std::vector<std::string> names;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('/'), text.size());
-        if (end > 0) names.emplace_back(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return names;
-}
-
 bool isName(std::string_view text) {
     return !text.empty() && text.size() <= 80 && text.find_first_of(" \t\r\n\"'<>") == std::string_view::npos;
 }
@@ -34,6 +23,24 @@ bool isName(std::string_view text) {
 /// Modules that a controller has and this one does not: what they declare is predefined here.
 bool isSystemModule(std::string_view name) {
     return sameName(name, "BASE") || sameName(name, "user");
+}
+
+constexpr rt::TypeDesc kBasicTypes[] = {
+    {"num", "num", rt::DescKind::Num, 4, 0, {}, nullptr, nullptr, nullptr},
+    {"dnum", "dnum", rt::DescKind::Dnum, 8, 0, {}, nullptr, nullptr, nullptr},
+    {"bool", "bool", rt::DescKind::Bool, 1, 0, {}, nullptr, nullptr, nullptr},
+    {"string", "string", rt::DescKind::String, sizeof(rt::String), 0, {}, nullptr, nullptr, nullptr},
+};
+
+/// The type itself, that of its elements or of a component. Null: none has this name.
+const rt::TypeDesc* typeInside(const rt::TypeDesc* type, std::string_view name) {
+    if (type == nullptr) return nullptr;
+    if (type->kind == rt::DescKind::Array) return typeInside(type->fields[0], name);
+    if (sameName(type->name, name)) return type;
+    if (type->kind != rt::DescKind::Record) return nullptr;
+    for (uint32_t i = 0; i < type->count; ++i)
+        if (const rt::TypeDesc* found = typeInside(type->fields[i], name)) return found;
+    return nullptr;
 }
 
 const rt::GlobalDesc* findGlobal(const rt::ProgramTables& tables, const DataPath& path, int32_t task) {
@@ -242,7 +249,7 @@ bool readAll(std::string_view text, std::vector<char>& bytes, const rt::TypeDesc
 } // namespace
 
 std::optional<DataPath> DataPath::read(std::string_view text) {
-    std::vector<std::string> names = namesIn(text);
+    std::vector<std::string> names = rapid::config::splitPath(text);
     if (!names.empty() && sameName(names.front(), "RAPID")) names.erase(names.begin());
     if (names.empty() || names.size() > 4) return std::nullopt;
     DataPath path;
@@ -292,6 +299,14 @@ FoundData findData(VirtualController& controller, const DataPath& path) {
         found.data = nullptr;
     }
     return found;
+}
+
+const rt::TypeDesc* typeNamed(VirtualController& controller, std::string_view name) {
+    for (const rt::TypeDesc& type : kBasicTypes)
+        if (sameName(type.name, name)) return &type;
+    for (const rt::GlobalDesc* global : controller.core().tables().globals())
+        if (const rt::TypeDesc* found = typeInside(global->type, name)) return found;
+    return nullptr;
 }
 
 std::optional<std::string> valueOf(const FoundData& found) {

@@ -39,6 +39,8 @@ struct FoundData {
 
 /// An index may select a component of a record, too, by its number from 1; fewer indices than dimensions select a row.
 FoundData findData(VirtualController& controller, const DataPath& path);
+/// The type of this name: num, dnum, bool, string, or one that data in memory, or components of them, have. Null: there is none.
+const rt::TypeDesc* typeNamed(VirtualController& controller, std::string_view name);
 /// As a declaration has it: 5, TRUE, "text", [[1,2,3],[1,0,0,0]]. None: the type has no values as text.
 std::optional<std::string> valueOf(const FoundData& found);
 /// Writes such a text. "" or what is wrong; then nothing has changed.

@@ -16,16 +16,6 @@ using rt::sameName;
 
 namespace {
 
-std::vector<std::string> namesIn(std::string_view url) {
-    std::vector<std::string> names;
-    while (!url.empty()) {
-        const std::size_t end = std::min(url.find('/'), url.size());
-        if (end > 0) names.emplace_back(url.substr(0, end));
-        url.remove_prefix(std::min(end + 1, url.size()));
-    }
-    return names;
-}
-
 SymbolType typeOf(syntax::DataKind kind) {
     switch (kind) {
     case syntax::DataKind::Var: return SymbolType::Variable;
@@ -373,7 +363,7 @@ std::optional<SymbolInfo> Symbols::findPredefined(std::string_view name, std::st
 
 std::optional<SymbolInfo> Symbols::find(std::string_view url) {
     typeUrls_.clear();
-    std::vector<std::string> names = namesIn(url);
+    std::vector<std::string> names = rapid::config::splitPath(url);
     if (!names.empty() && sameName(names.front(), "RAPID")) names.erase(names.begin());
     if (names.empty()) return std::nullopt;
     const rt::Task* task = controller_.core().findTask(names.front());
@@ -416,7 +406,7 @@ std::optional<SymbolInfo> Symbols::find(std::string_view url) {
 bool Symbols::search(const SymbolQuery& query, std::vector<SymbolInfo>& found) {
     typeUrls_.clear();
     Collector collector(*this, query, found);
-    std::vector<std::string> names = namesIn(query.block);
+    std::vector<std::string> names = rapid::config::splitPath(query.block);
     if (!names.empty() && sameName(names.front(), "RAPID")) names.erase(names.begin());
     const rt::Task* task = names.empty() ? nullptr : controller_.core().findTask(names.front());
     if (query.view == SymbolQuery::View::Stack) return task != nullptr && searchStack(query, *task, found);

@@ -43,7 +43,7 @@ const char* nameOf(GuidanceMode mode) {
 }
 
 /// The process, set up in this mode and not guiding. Null with the reason reported.
-EgmProcess* processFor(TaskCore* task, Handle identity, GuidanceMode mode, Status& status) {
+EgmProcess* connectedProcess(TaskCore* task, Handle identity, GuidanceMode mode, Status& status) {
     EgmProcess* process = lib::egmProcess(task, identity, status);
     if (process == nullptr) return nullptr;
     if (process->state() == EgmProcess::State::Disconnected)
@@ -135,7 +135,7 @@ Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Too
                       const data::Egm_minmax* J7, const float* LpFilter, const float* SampleRate,
                       const float* MaxPosDeviation, const float* MaxSpeedDeviation) {
     Status status = kOk;
-    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Joint, status);
+    EgmProcess* process = connectedProcess(task, *EGMid, GuidanceMode::Joint, status);
     if (process == nullptr) return status;
     GuidanceSettings settings;
     const data::Egm_minmax* const windows[] = {J1, J2, J3, J4, J5, J6, J7};
@@ -156,7 +156,7 @@ Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tool
                      const data::Egm_minmax* rz, const float* LpFilter, const float* SampleRate,
                      const float* MaxPosDeviation, const float* MaxSpeedDeviation) {
     Status status = kOk;
-    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::Pose, status);
+    EgmProcess* process = connectedProcess(task, *EGMid, GuidanceMode::Pose, status);
     if (process == nullptr) return status;
     GuidanceSettings settings;
     settings.mode = GuidanceMode::Pose;
@@ -176,7 +176,7 @@ Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tool
 
 Status rt_EGMActMove(TaskCore* task, Handle* EGMid, const data::Pose* SensorFrame, const float* SampleRate) {
     Status status = kOk;
-    EgmProcess* process = processFor(task, *EGMid, GuidanceMode::PathCorrection, status);
+    EgmProcess* process = connectedProcess(task, *EGMid, GuidanceMode::PathCorrection, status);
     if (process == nullptr) return status;
     GuidanceSettings settings;
     settings.mode = GuidanceMode::PathCorrection;

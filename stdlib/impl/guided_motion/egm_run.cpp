@@ -32,7 +32,7 @@ Status stopMode(TaskCore* task, float mode, bool& rampDown) {
 }
 
 /// The process, activated in this mode and not guiding yet, and the robot free. Null with the reason reported.
-EgmProcess* processFor(TaskCore* task, Handle identity, GuidanceMode mode, Status& status) {
+EgmProcess* activatedProcess(TaskCore* task, Handle identity, GuidanceMode mode, Status& status) {
     EgmProcess* process = lib::egmProcess(task, identity, status);
     if (process == nullptr) return nullptr;
     EgmProcesses& all = EgmProcesses::of(taskOf(task).controller());
@@ -94,7 +94,7 @@ Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArgument
            GuidanceOrder order) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     Status status = kOk;
-    EgmProcess* process = processFor(task, identity, mode, status);
+    EgmProcess* process = activatedProcess(task, identity, mode, status);
     if (process == nullptr) return status;
     if ((status = readOrder(task, *process, args, order)) != kOk) return status;
     if ((status = taskOf(task).requireMovementAllowed()) != kOk) return status;
@@ -109,7 +109,7 @@ Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArgument
 Status moveCorrected(TaskCore* task, Handle identity, motion::MoveCommand command,
                      const lib::MoveArguments& arguments, bool isCorrected) {
     Status status = kOk;
-    EgmProcess* process = processFor(task, identity, GuidanceMode::PathCorrection, status);
+    EgmProcess* process = activatedProcess(task, identity, GuidanceMode::PathCorrection, status);
     if (process == nullptr) return status;
     if (isCorrected) command = process->corrected(std::move(command));
     process->beginMove(lib::toFrame(arguments.tool->tframe));

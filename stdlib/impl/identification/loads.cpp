@@ -95,7 +95,7 @@ Status moveAxes(TaskCore* task, const motion::JointTarget& target) {
 
 /// Axes 5 and 3 swing, then again with axis 6 turned, and back.
 Status testMovements(TaskCore* task, double angle, bool withAxis3, bool slowOnly) {
-    const motion::JointTarget from = lib::motionOf(task).system().plannedEnd();
+    const motion::JointTarget from = lib::motionSystemOf(task).plannedEnd();
     for (const double turned : {0.0, angle}) {
         motion::JointTarget at = from;
         at.robax[kAxis6] += turned;
@@ -150,7 +150,7 @@ Status activate(TaskCore* task, MechanicalUnit& unit, bool isActive) {
 
 /// The axis to its end of the test and back, within its bounds.
 Status swingAxis(TaskCore* task, const MechanicalUnit::Axis& axis, double angle) {
-    const motion::JointTarget from = lib::motionOf(task).system().plannedEnd();
+    const motion::JointTarget from = lib::motionSystemOf(task).plannedEnd();
     motion::JointTarget to = from;
     to.extax[axis.index] += angle;
     if (const Status status = moveAxes(task, to)) return status;
@@ -228,7 +228,7 @@ Status rt_ParIdRobValid(TaskCore* task, float* result, float ParIdType, Handle* 
 /// AxValid has an element for each of the six axes of the robot and then the six external ones.
 Status rt_ParIdPosValid(TaskCore* task, bool* result, float ParIdType, data::Jointtarget* Pos, bool* AxValid,
                         int32_t AxValidDim1, const float* ConfAngle) {
-    const motion::MotionSystem& arm = lib::motionOf(task).system();
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     const robot::RobotModel& model = arm.model();
     const double angle = ConfAngle != nullptr ? static_cast<double>(*ConfAngle) : kUsualAngle;
     const bool isPossible = isRobotLoad(ParIdType) && canIdentify(model) && isAngle(angle);

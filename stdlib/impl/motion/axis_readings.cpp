@@ -36,7 +36,7 @@ Status rt_ReadMotor(TaskCore* task, float* result, Handle* MecUnit, float Axis) 
     Status status = kOk;
     const int axis = lib::robotAxis(task, MecUnit, Axis, status);
     if (axis < 0) return status;
-    const motion::MotionSystem& arm = lib::motionOf(task).system();
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     *result = static_cast<float>(arm.currentJoints().robax[static_cast<std::size_t>(axis)] * robot::kDeg);
     return kOk;
 }
@@ -47,7 +47,7 @@ Status rt_GetMotorTorque(TaskCore* task, float* result, Handle* MecUnit, float A
     const int number = lib::robotAxis(task, MecUnit, AxisNo, status);
     if (number < 0) return status;
     *result =
-        static_cast<float>(lib::torqueShare(lib::motionOf(task).system(), static_cast<std::size_t>(number)));
+        static_cast<float>(lib::torqueShare(lib::motionSystemOf(task), static_cast<std::size_t>(number)));
     return kOk;
 }
 

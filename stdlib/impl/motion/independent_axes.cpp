@@ -120,10 +120,6 @@ class IndependentAxes {
     bool isStopped_ = false; // with the program
 };
 
-motion::MotionSystem& systemOf(TaskCore* task) {
-    return lib::motionOf(task).system();
-}
-
 motion::AxisMoment momentOf(const motion::MotionSystem& arm, const motion::GroupAxis& axis) {
     return arm.independent(axis)->at(secondsNow(arm));
 }
@@ -147,7 +143,7 @@ bool canResetAxis4(const robot::RobotModel& model) {
 enum class Purpose : uint8_t { Move, Reset };
 
 Status robotAxis(TaskCore* task, std::size_t number, Purpose purpose, NamedAxis& axis) {
-    const motion::MotionSystem& arm = systemOf(task);
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     const robot::RobotModel& model = arm.model();
     const bool isAxis4 = purpose == Purpose::Reset && number == kAxis4 && canResetAxis4(model);
     if (number != kAxis6 && !isAxis4)
@@ -199,7 +195,7 @@ Status findAxis(TaskCore* task, const Handle* handle, float number, Purpose purp
 /// The axis is in independent mode; else ERR_AXIS_ACT.
 Status checkIndependent(TaskCore* task, const Handle* unit, float number, NamedAxis& axis) {
     if (const Status status = findAxis(task, unit, number, Purpose::Move, axis)) return status;
-    if (systemOf(task).independent(axis.axis) != nullptr) return kOk;
+    if (lib::motionSystemOf(task).independent(axis.axis) != nullptr) return kOk;
     return lib::fail(task, err::ERR_AXIS_ACT, "the axis is not in independent mode (IndAMove ...)");
 }
 
@@ -295,7 +291,7 @@ Status rt_IndCMove(TaskCore* task, Handle* MecUnit, float Axis, float Speed, con
 Status rt_IndDMove(TaskCore* task, Handle* MecUnit, float Axis, float Delta, float Speed, const float* Ramp) {
     NamedAxis axis;
     if (const Status status = findAxis(task, MecUnit, Axis, Purpose::Move, axis)) return status;
-    const double from = positionOf(systemOf(task), axis.axis);
+    const double from = positionOf(lib::motionSystemOf(task), axis.axis);
     return orderMove(task, axis, false, from + static_cast<double>(Delta), Speed, Ramp);
 }
 
@@ -307,7 +303,7 @@ Status rt_IndRMove(TaskCore* task, Handle* MecUnit, float Axis, const data::Robt
     if (const Status status = requireRotating(task, axis)) return status;
     if (const Status status = readPosition(task, axis, ToRelPos, ToRelNum, angle)) return status;
     if (const Status status = checkOneDirection(task, Short + Fwd + Bwd)) return status;
-    const double from = positionOf(systemOf(task), axis.axis);
+    const double from = positionOf(lib::motionSystemOf(task), axis.axis);
     return orderMove(task, axis, false, sameAngle(angle, from, Fwd, Bwd), Speed, Ramp);
 }
 
@@ -344,7 +340,7 @@ Status rt_IndInpos(TaskCore* task, bool* result, Handle* MecUnit, float Axis) {
     NamedAxis axis;
     if (const Status status = checkIndependent(task, MecUnit, Axis, axis)) return status;
     const IndependentOrder& order = lib::motionOf(task).service<IndependentAxes>().order(axis.axis);
-    const motion::MotionSystem& arm = systemOf(task);
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     *result = !order.endless && isResting(arm, axis.axis) && momentOf(arm, axis.axis).position == order.goal;
     return kOk;
 }
@@ -355,7 +351,7 @@ Status rt_IndSpeed(TaskCore* task, bool* result, Handle* MecUnit, float Axis, bo
     if (InSpeed == ZeroSpeed)
         return lib::fail(task, err::ERR_ARGVALERR, "IndSpeed needs one of \\InSpeed and \\ZeroSpeed");
     const IndependentOrder& order = lib::motionOf(task).service<IndependentAxes>().order(axis.axis);
-    const motion::MotionSystem& arm = systemOf(task);
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     const double speed = momentOf(arm, axis.axis).speed;
     constexpr double kExact = 1e-6; // deg/s
     *result =

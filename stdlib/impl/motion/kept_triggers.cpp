@@ -15,7 +15,7 @@ namespace rt::lib {
 namespace {
 
 using Json = nlohmann::json;
-using Kind = TriggerDefinition::Kind;
+using TriggerKind = TriggerDefinition::Kind;
 
 /// None when there was none.
 Handle signalFrom(Controller& controller, const Json& json) {
@@ -66,8 +66,8 @@ Json jsonOf(Controller& controller, const TriggerDefinition& d) {
 TriggerDefinition definitionFrom(Controller& controller, const Json& json) {
     TriggerDefinition d;
     const int kind = numberFrom<int>(json.at("kind"));
-    if (kind < 0 || kind > static_cast<int>(Kind::Check)) throw std::invalid_argument("no such kind");
-    d.kind = static_cast<Kind>(kind);
+    if (kind < 0 || kind > static_cast<int>(TriggerKind::Check)) throw std::invalid_argument("no such kind");
+    d.kind = static_cast<TriggerKind>(kind);
     json.at("amount").get_to(d.place.amount);
     json.at("fromStart").get_to(d.place.fromStart);
     json.at("inTime").get_to(d.place.inTime);

@@ -23,6 +23,11 @@ struct MoveArguments {
     bool movesGun = false;                     ///< also external axes that are independent of the robot
 };
 
+/// Those of instructions that have no \Conc, \V, \Z and \Inpos.
+MoveArguments plainArguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
+                             const data::Tooldata* tool, const data::Wobjdata* workObject,
+                             const data::Loaddata* totalLoad);
+
 /// The movement to a target; the rest of the command is completed by orderMove. `id`: \ID, null when it is not given.
 motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target, const float* id);
 motion::MoveCommand linearMove(TaskCore* task, const data::Robtarget& target, const float* id);

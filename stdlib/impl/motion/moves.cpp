@@ -113,7 +113,7 @@ motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Ro
     motion::MoveCommand command;
     command.ident = identOf(id);
     command.kind = kind;
-    command.target = lib::toTarget(target, lib::motionOf(task).system().kinematics());
+    command.target = lib::toTarget(target, lib::motionSystemOf(task).kinematics());
     lib::addOffsets(command.target.extax, lib::motionState(task).axisOffsets, 1);
     return command;
 }
@@ -121,6 +121,12 @@ motion::MoveCommand moveTo(TaskCore* task, motion::MoveKind kind, const data::Ro
 } // namespace
 
 namespace rt::lib {
+
+MoveArguments plainArguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
+                             const data::Tooldata* tool, const data::Wobjdata* workObject,
+                             const data::Loaddata* totalLoad) {
+    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject, false, totalLoad};
+}
 
 motion::MoveCommand jointMove(TaskCore* task, const data::Robtarget& target, const float* id) {
     return moveTo(task, motion::MoveKind::Joint, target, id);
@@ -142,7 +148,7 @@ motion::MoveCommand absoluteMove(TaskCore* task, const data::Jointtarget& target
     motion::MoveCommand command;
     command.ident = identOf(id);
     command.kind = motion::MoveKind::AbsJoint;
-    command.joints = toJoints(target, lib::motionOf(task).system().kinematics());
+    command.joints = toJoints(target, lib::motionSystemOf(task).kinematics());
     if (!noOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
 }
@@ -152,7 +158,7 @@ motion::MoveCommand externalMove(TaskCore* task, const data::Jointtarget& target
     motion::MoveCommand command;
     command.ident = identOf(id);
     command.kind = motion::MoveKind::AbsJoint;
-    command.joints = lib::motionOf(task).system().plannedEnd();
+    command.joints = lib::motionSystemOf(task).plannedEnd();
     command.joints.extax = toAxes(target.extax);
     if (withOffsets) addOffsets(command.joints.extax, motionState(task).axisOffsets, 1);
     return command;
@@ -230,7 +236,7 @@ Status rt_MoveAbsL(TaskCore* task, bool Conc, const data::Jointtarget* ToJointPo
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj != nullptr ? WObj : &world, frames))
         return status;
-    command.target = lib::motionOf(task).system().toRobTarget(absolute.joints, frames);
+    command.target = lib::motionSystemOf(task).toRobTarget(absolute.joints, frames);
     return lib::orderMove(task, command, {Conc, Speed, V, T, Zone, Z, Inpos, Tool, WObj, true, TLoad});
 }
 

@@ -36,12 +36,6 @@ Status moveAndSetGroup(TaskCore* task, motion::MoveCommand command, const lib::M
                       num != nullptr ? static_cast<double>(*num) : *dnum);
 }
 
-lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
-                             const data::Tooldata* tool, const data::Wobjdata* workObject,
-                             const data::Loaddata* totalLoad) {
-    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject, false, totalLoad};
-}
-
 } // namespace
 
 extern "C" {
@@ -50,16 +44,16 @@ Status rt_MoveLDO(TaskCore* task, const data::Robtarget* ToPoint, const float* I
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
-                      *Signal, Value);
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID),
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveJDO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
-                      *Signal, Value);
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID),
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -67,23 +61,23 @@ Status rt_MoveCDO(TaskCore* task, const data::Robtarget* CirPoint, const data::R
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
     return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                      arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveLAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
-    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
-                      *Signal, Value);
+    return moveAndSet(task, lib::linearMove(task, *ToPoint, ID),
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveJAO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                   const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
-    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
-                      *Signal, Value);
+    return moveAndSet(task, lib::jointMove(task, *ToPoint, ID),
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -91,7 +85,7 @@ Status rt_MoveCAO(TaskCore* task, const data::Robtarget* CirPoint, const data::R
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, float Value,
                   data::Loaddata* TLoad) {
     return moveAndSet(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                      arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
+                      lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value);
 }
 
 Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
@@ -99,7 +93,7 @@ Status rt_MoveLGO(TaskCore* task, const data::Robtarget* ToPoint, const float* I
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
                   const double* DValue, data::Loaddata* TLoad) {
     return moveAndSetGroup(task, lib::linearMove(task, *ToPoint, ID),
-                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
+                           lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 
 Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
@@ -107,7 +101,7 @@ Status rt_MoveJGO(TaskCore* task, const data::Robtarget* ToPoint, const float* I
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
                   const double* DValue, data::Loaddata* TLoad) {
     return moveAndSetGroup(task, lib::jointMove(task, *ToPoint, ID),
-                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
+                           lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 
 Status rt_MoveCGO(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -115,6 +109,6 @@ Status rt_MoveCGO(TaskCore* task, const data::Robtarget* CirPoint, const data::R
                   data::Tooldata* Tool, data::Wobjdata* WObj, Handle* Signal, const float* Value,
                   const double* DValue, data::Loaddata* TLoad) {
     return moveAndSetGroup(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                           arguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
+                           lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), *Signal, Value, DValue);
 }
 }

@@ -20,7 +20,7 @@ MotionDriver& driverOf(TaskCore* task) {
 }
 
 /// Not recoverable: the instruction does not fit the path level.
-Status misused(TaskCore* task, std::string why) {
+Status levelMisused(TaskCore* task, std::string why) {
     return taskOf(task).fatal(static_cast<int>(EventId::LevelMisused), std::move(why));
 }
 
@@ -149,15 +149,15 @@ Status rt_StorePath(TaskCore* task, bool KeepSync) {
         return lib::fail(task, err::ERR_ARGVALERR,
                          "\\KeepSync is for robots in synchronised movement (SyncMoveOn)");
     if (driverOf(task).pathLevel() > 1)
-        return misused(task,
-                       "StorePath: a path is stored already, and only one can be. Execute RestoPath first.");
+        return levelMisused(
+            task, "StorePath: a path is stored already, and only one can be. Execute RestoPath first.");
     return driverOf(task).storePath(taskOf(task), KeepSync);
 }
 
 Status rt_RestoPath(TaskCore* task) {
     if (const Status status = lib::requireMotionTask(task)) return status;
     if (driverOf(task).pathLevel() == 1)
-        return misused(task, "RestoPath: no path is stored. Execute StorePath first.");
+        return levelMisused(task, "RestoPath: no path is stored. Execute StorePath first.");
     return driverOf(task).restorePath(taskOf(task));
 }
 

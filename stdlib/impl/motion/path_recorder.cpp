@@ -87,7 +87,7 @@ void PathRecorder::joinTo(const motion::JointTarget& from) {
         truncate(replay_->at);
     replay_.reset();
     if (moves_.empty() || isSamePlace(moves_.back().to, from)) return;
-    const motion::MotionSystem& arm = lib::motionOf(task_).system();
+    const motion::MotionSystem& arm = lib::motionSystemOf(task_);
     std::size_t cleared = moves_.size();
     while (cleared > 0 && arm.status(moves_[cleared - 1].id) == motion::MoveStatus::Cleared)
         --cleared;

@@ -21,7 +21,7 @@ lib::PathRecorder& recorderOf(TaskCore* task) {
     return lib::motionOf(task).service<lib::PathRecorder>();
 }
 
-Status misused(TaskCore* task, std::string why) {
+Status recorderMisused(TaskCore* task, std::string why) {
     return taskOf(task).fatal(static_cast<int>(EventId::PathRecorderMisused), std::move(why));
 }
 
@@ -41,11 +41,11 @@ Handle idOf(const Handle* id) {
 /// kOk, or the reason why the recorder cannot move the robot now.
 Status checkMovable(TaskCore* task, const char* instruction) {
     if (const Status status = lib::requireMotionTask(task)) return status;
-    if (lib::motionOf(task).system().isIdle()) return kOk;
-    return misused(task,
-                   std::string(instruction) +
-                       ": movements are unfinished. Put them aside with StorePath, or wait until the robot "
-                       "is at a stop point.");
+    if (lib::motionSystemOf(task).isIdle()) return kOk;
+    return recorderMisused(
+        task, std::string(instruction) +
+                  ": movements are unfinished. Put them aside with StorePath, or wait until the robot "
+                  "is at a stop point.");
 }
 
 } // namespace
@@ -71,10 +71,10 @@ Status rt_PathRecMoveBwd(TaskCore* task, Handle* ID, const data::Pos* ToolOffs,
                          const data::Speeddata* Speed) {
     if (const Status status = checkMovable(task, "PathRecMoveBwd")) return status;
     Task& owner = taskOf(task);
-    const auto goal = recorderOf(task).goalBack(lib::motionOf(task).system(), idOf(ID));
+    const auto goal = recorderOf(task).goalBack(lib::motionSystemOf(task), idOf(ID));
     if (!goal)
-        return misused(task,
-                       "PathRecMoveBwd: there is no recorded path back to there (see PathRecValidBwd).");
+        return recorderMisused(
+            task, "PathRecMoveBwd: there is no recorded path back to there (see PathRecValidBwd).");
     return recorderOf(task).moveBack(owner, *goal, mannerOf(ToolOffs, Speed));
 }
 
@@ -83,13 +83,14 @@ Status rt_PathRecMoveFwd(TaskCore* task, Handle* ID, const data::Pos* ToolOffs,
     if (const Status status = checkMovable(task, "PathRecMoveFwd")) return status;
     const auto goal = recorderOf(task).goalForward(idOf(ID));
     if (!goal)
-        return misused(task, "PathRecMoveFwd: PathRecMoveBwd has not left a path forward to there (see "
-                             "PathRecValidFwd).");
+        return recorderMisused(task,
+                               "PathRecMoveFwd: PathRecMoveBwd has not left a path forward to there (see "
+                               "PathRecValidFwd).");
     return recorderOf(task).moveForward(taskOf(task), *goal, mannerOf(ToolOffs, Speed));
 }
 
 Status rt_PathRecValidBwd(TaskCore* task, bool* result, Handle* ID) {
-    *result = recorderOf(task).goalBack(lib::motionOf(task).system(), idOf(ID)).has_value();
+    *result = recorderOf(task).goalBack(lib::motionSystemOf(task), idOf(ID)).has_value();
     return kOk;
 }
 

@@ -12,10 +12,6 @@ using namespace rt;
 
 namespace {
 
-motion::MotionSystem& systemOf(TaskCore* task) {
-    return lib::motionOf(task).system();
-}
-
 /// The task whose robot is meant: that of \TaskRef or \TaskName, else the calling one.
 Status askedTask(TaskCore* task, const Handle* ref, const String* name, TaskCore*& asked) {
     asked = task;
@@ -47,7 +43,7 @@ Status currentTarget(TaskCore* task, TaskCore* asked, const data::Tooldata* tool
                                               workObject ? workObject : &state.workObject, frames))
         return status;
     frames.displacement = state.displacement;
-    target = systemOf(asked).currentTarget(frames);
+    target = lib::motionSystemOf(asked).currentTarget(frames);
     lib::addOffsets(target.extax, state.axisOffsets, -1);
     return kOk;
 }
@@ -62,7 +58,7 @@ Status rt_CRobT(TaskCore* task, data::Robtarget* result, Handle* TaskRef, const 
     if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
     motion::RobTarget target;
     if (const Status status = currentTarget(task, asked, Tool, WObj, target)) return status;
-    return lib::give(task, result, lib::toRobtarget(target, systemOf(asked).kinematics()));
+    return lib::give(task, result, lib::toRobtarget(target, lib::motionSystemOf(asked).kinematics()));
 }
 
 Status rt_CPos(TaskCore* task, data::Pos* result, data::Tooldata* Tool, data::Wobjdata* WObj) {
@@ -75,7 +71,8 @@ Status rt_CJointT(TaskCore* task, data::Jointtarget* result, Handle* TaskRef, co
     TaskCore* asked = nullptr;
     if (const Status status = askedTask(task, TaskRef, TaskName, asked)) return status;
     return lib::give(task, result,
-                     lib::toJointtarget(systemOf(asked).currentJoints(), systemOf(asked).kinematics()));
+                     lib::toJointtarget(lib::motionSystemOf(asked).currentJoints(),
+                                        lib::motionSystemOf(asked).kinematics()));
 }
 
 Status rt_CTool(TaskCore* task, data::Tooldata* result, Handle* TaskRef, const String* TaskName) {
@@ -96,7 +93,7 @@ Status rt_CalcRobT(TaskCore* task, data::Robtarget* result, const data::Jointtar
                    data::Tooldata* Tool, data::Wobjdata* WObj) {
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
-    const motion::MotionSystem& system = systemOf(task);
+    const motion::MotionSystem& system = lib::motionSystemOf(task);
     motion::JointTarget joints = lib::toJoints(*Joint_target, system.kinematics());
     constexpr std::size_t kAxis7 = 6; // 9E9: where it is
     if (joints.robax.size() > kAxis7 && !motion::isConnected(joints.robax[kAxis7]))
@@ -112,9 +109,9 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjP
                      float* ErrorNumber) {
     motion::FrameSetup frames;
     if (const Status status = lib::frameSetup(task, Tool, WObj ? WObj : &world(), frames)) return status;
-    motion::RobTarget target = lib::toTarget(*Rob_target, systemOf(task).kinematics());
+    motion::RobTarget target = lib::toTarget(*Rob_target, lib::motionSystemOf(task).kinematics());
     lib::addOffsets(target.extax, lib::motionState(task).axisOffsets, 1);
-    const motion::MotionSystem& system = systemOf(task);
+    const motion::MotionSystem& system = lib::motionSystemOf(task);
     if (UseCurWObjPos && frames.userMover != nullptr) {
         frames.workObject.uframe = frames.userMover->frame(system.currentJoints().extax);
         frames.userMover = nullptr;
@@ -134,10 +131,10 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjP
 Status rt_ORobT(TaskCore* task, data::Robtarget* result, const data::Robtarget* OrgPoint, bool InPDisp,
                 bool InEOffs) {
     const lib::MotionState& state = lib::motionState(task);
-    motion::RobTarget target = lib::toTarget(*OrgPoint, systemOf(task).kinematics());
+    motion::RobTarget target = lib::toTarget(*OrgPoint, lib::motionSystemOf(task).kinematics());
     if (!InPDisp) target.pose = state.displacement * target.pose;
     if (!InEOffs) lib::addOffsets(target.extax, state.axisOffsets, 1);
-    return lib::give(task, result, lib::toRobtarget(target, systemOf(task).kinematics()));
+    return lib::give(task, result, lib::toRobtarget(target, lib::motionSystemOf(task).kinematics()));
 }
 
 Status rt_RobName(TaskCore* task, String* result) {

@@ -70,12 +70,6 @@ Status moveAndCall(TaskCore* core, motion::MoveCommand command, const lib::MoveA
     return task.passOn(task.interrupts().callNow(call));
 }
 
-lib::MoveArguments arguments(const data::Speeddata* speed, const float* t, const data::Zonedata* zone,
-                             const data::Tooldata* tool, const data::Wobjdata* workObject,
-                             const data::Loaddata* totalLoad) {
-    return {false, speed, nullptr, t, zone, nullptr, nullptr, tool, workObject, false, totalLoad};
-}
-
 } // namespace
 
 extern "C" {
@@ -85,15 +79,15 @@ Status rt_MoveLSync(TaskCore* task, const data::Robtarget* ToPoint, const float*
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
                     data::Loaddata* TLoad) {
     return moveAndCall(task, lib::linearMove(task, *ToPoint, ID),
-                       arguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
+                       lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
 }
 
 Status rt_MoveJSync(TaskCore* task, const data::Robtarget* ToPoint, const float* ID,
                     const data::Speeddata* Speed, const float* T, const data::Zonedata* Zone,
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
                     data::Loaddata* TLoad) {
-    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID), arguments(Speed, T, Zone, Tool, WObj, TLoad),
-                       ProcName);
+    return moveAndCall(task, lib::jointMove(task, *ToPoint, ID),
+                       lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
 }
 
 Status rt_MoveCSync(TaskCore* task, const data::Robtarget* CirPoint, const data::Robtarget* ToPoint,
@@ -101,6 +95,6 @@ Status rt_MoveCSync(TaskCore* task, const data::Robtarget* CirPoint, const data:
                     data::Tooldata* Tool, data::Wobjdata* WObj, const String* ProcName,
                     data::Loaddata* TLoad) {
     return moveAndCall(task, lib::circularMove(task, *CirPoint, *ToPoint, ID),
-                       arguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
+                       lib::plainArguments(Speed, T, Zone, Tool, WObj, TLoad), ProcName);
 }
 }

@@ -104,7 +104,7 @@ Status giveTarget(TaskCore* task, const motion::JointTarget& place, const lib::M
     if (const Status status =
             lib::frameSetup(task, move.tool, move.workObject != nullptr ? move.workObject : &world, frames))
         return status;
-    const motion::MotionSystem& system = lib::motionOf(task).system();
+    const motion::MotionSystem& system = lib::motionSystemOf(task);
     motion::RobTarget target = system.toRobTarget(place, frames);
     lib::addOffsets(target.extax, state.axisOffsets, -1);
     return lib::give(task, result, lib::toRobtarget(target, system.kinematics()));
@@ -124,7 +124,7 @@ Status searchJoints(TaskCore* task, motion::MoveCommand command, const SearchArg
     if (const Status status = search(task, std::move(command), args, move, place)) return status;
     if (!place) return kOk;
     if (offsets) lib::addOffsets(place->extax, lib::motionState(task).axisOffsets, -1);
-    const robot::Kinematics& arm = lib::motionOf(task).system().kinematics();
+    const robot::Kinematics& arm = lib::motionSystemOf(task).kinematics();
     return lib::give(task, result, lib::toJointtarget(*place, arm));
 }
 

@@ -35,7 +35,7 @@ Status pathLimit(TaskCore* task, bool on, const float* value, double& limit) {
 extern "C" {
 
 Status rt_MaxRobSpeed(TaskCore* task, float* result) {
-    *result = static_cast<float>(lib::motionOf(task).system().model().maxTcpSpeed);
+    *result = static_cast<float>(lib::motionSystemOf(task).model().maxTcpSpeed);
     return kOk;
 }
 
@@ -118,7 +118,7 @@ Status rt_SpeedRefresh(TaskCore* task, float Override) {
 }
 
 Status rt_CSpeedOverride(TaskCore* task, float* result, bool CTask) {
-    const motion::MotionSystem& arm = lib::motionOf(task).system();
+    const motion::MotionSystem& arm = lib::motionSystemOf(task);
     *result = static_cast<float>(CTask ? arm.programOverride() : arm.speedOverride());
     return kOk;
 }
@@ -145,7 +145,7 @@ Status rt_PDispOn(TaskCore* task, bool Rot, const data::Robtarget* ExeP, const d
     if (ExeP) {
         executed = lib::toFrame(*ExeP);
     } else {
-        executed = lib::motionOf(task).system().currentTarget(frames).pose;
+        executed = lib::motionSystemOf(task).currentTarget(frames).pose;
     }
     const motion::Pose point = lib::toFrame(*ProgPoint);
     state.displacement = Rot ? executed * robot::inverse(point) : motion::Pose{executed.pos - point.pos, {}};
@@ -167,7 +167,7 @@ Status rt_EOffsOff(TaskCore* task) {
 
 Status rt_EOffsOn(TaskCore* task, const data::Robtarget* ExeP, const data::Robtarget* ProgPoint) {
     const motion::ExternalAxes executed =
-        ExeP ? lib::toAxes(ExeP->extax) : lib::motionOf(task).system().currentJoints().extax;
+        ExeP ? lib::toAxes(ExeP->extax) : lib::motionSystemOf(task).currentJoints().extax;
     const motion::ExternalAxes point = lib::toAxes(ProgPoint->extax);
     motion::ExternalAxes offsets{};
     for (size_t i = 0; i < offsets.size(); ++i)

@@ -19,6 +19,11 @@ inline MotionDriver& motionOf(TaskCore* task) {
     return owner.controller().motion(owner);
 }
 
+/// The path and the axes of that group.
+inline motion::MotionSystem& motionSystemOf(TaskCore* task) {
+    return motionOf(task).system();
+}
+
 /// The task controls a robot with a TCP, not only external units.
 inline bool movesRobot(const Task& task) {
     return task.isMotionTask() &&

@@ -24,7 +24,7 @@ lib::WorldZones& zonesOf(TaskCore* task) {
     return lib::zonesOf(taskOf(task).controller(), lib::motionOf(task));
 }
 
-Status misused(TaskCore* task, std::string why) {
+Status zoneMisused(TaskCore* task, std::string why) {
     return taskOf(task).fatal(static_cast<int>(EventId::WorldZoneMisused), std::move(why));
 }
 
@@ -86,15 +86,17 @@ Status prepare(TaskCore* task, const char* instruction, bool temp, bool stat, fl
                              ": \\Temp needs data of type wztemporary, \\Stat of type wzstationary");
     const ZoneShape* volume = taskOf(task).controller().service<lib::ZoneShapes>().find(shape);
     if (volume == nullptr)
-        return misused(task, std::string(instruction) + ": the shape has not been defined (WZBoxDef ...).");
+        return zoneMisused(task,
+                           std::string(instruction) + ": the shape has not been defined (WZBoxDef ...).");
     if (stat && taskOf(task).events().running() != SystemEvent::PowerOn)
-        return misused(task, std::string(instruction) +
-                                 " \\Stat is allowed only in a routine of the event POWER ON (SYS.cfg, "
-                                 "CAB_EXEC_HOOKS).");
+        return zoneMisused(task, std::string(instruction) +
+                                     " \\Stat is allowed only in a routine of the event POWER ON (SYS.cfg, "
+                                     "CAB_EXEC_HOOKS).");
     if (zonesOf(task).find(static_cast<int>(*number)) != nullptr)
-        return misused(task, std::string(instruction) +
-                                 ": the variable names a world zone that exists already. Use another one, or "
-                                 "erase the zone with WZFree first.");
+        return zoneMisused(task,
+                           std::string(instruction) +
+                               ": the variable names a world zone that exists already. Use another one, or "
+                               "erase the zone with WZFree first.");
     zone.shape = *volume;
     zone.stationary = stat;
     return kOk;
@@ -103,7 +105,7 @@ Status prepare(TaskCore* task, const char* instruction, bool temp, bool stat, fl
 Status add(TaskCore* task, const WorldZone& zone, float& number) {
     const int made = zonesOf(task).add(zone);
     if (made == 0)
-        return misused(task, "There are 20 world zones already, the maximum. Erase one with WZFree.");
+        return zoneMisused(task, "There are 20 world zones already, the maximum. Erase one with WZFree.");
     number = static_cast<float>(made);
     return kOk;
 }
@@ -113,9 +115,9 @@ WorldZone* zoneOf(TaskCore* task, const char* instruction, const data::Wztempora
                   Status& status) {
     WorldZone* zone = zonesOf(task).find(static_cast<int>(variable.wz));
     if (zone == nullptr || zone->stationary) {
-        status = misused(task, std::string(instruction) +
-                                   ": the variable names no temporary world zone. Define it "
-                                   "with WZLimSup \\Temp or WZDOSet \\Temp first.");
+        status = zoneMisused(task, std::string(instruction) +
+                                       ": the variable names no temporary world zone. Define it "
+                                       "with WZLimSup \\Temp or WZDOSet \\Temp first.");
         return nullptr;
     }
     return zone;

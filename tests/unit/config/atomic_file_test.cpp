@@ -15,7 +15,7 @@ using rapid::config::replaceFile;
 
 namespace {
 
-std::string read(const std::filesystem::path& path) {
+std::string contentOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return std::string((std::istreambuf_iterator<char>(file)), {});
 }
@@ -44,10 +44,10 @@ TEST_CASE("a file is replaced and keeps its permissions", "[edit]") {
     const std::string path = (folder.path / "x.mod").string();
     REQUIRE(::chmod(path.c_str(), 0640) == 0);
     CHECK(replaceFile(path, std::string("new\0bytes", 9)).empty());
-    CHECK(read(path) == std::string("new\0bytes", 9));
+    CHECK(contentOf(path) == std::string("new\0bytes", 9));
     CHECK(modeOf(path) == 0640);
     CHECK(replaceFile(path, "").empty());
-    CHECK(read(path).empty());
+    CHECK(contentOf(path).empty());
     CHECK(entries(folder.path) == 1);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a file that is not there yet is made", "[edit]") {
     const TemporaryFolder folder;
     const std::string path = (folder.path / "new.mod").string();
     CHECK(replaceFile(path, "text").empty());
-    CHECK(read(path) == "text");
+    CHECK(contentOf(path) == "text");
     const mode_t mask = ::umask(0);
     ::umask(mask);
     CHECK(modeOf(path) == (0666 & ~mask));
@@ -68,7 +68,7 @@ TEST_CASE("a symbolic link stays and its file is replaced", "[edit]") {
     std::filesystem::create_symlink("far/x.mod", folder.path / "link.mod");
     CHECK(replaceFile((folder.path / "link.mod").string(), "new").empty());
     CHECK(std::filesystem::is_symlink(folder.path / "link.mod"));
-    CHECK(read(folder.path / "far/x.mod") == "new");
+    CHECK(contentOf(folder.path / "far/x.mod") == "new");
 }
 
 TEST_CASE("what cannot be replaced is reported and left alone", "[edit]") {
@@ -94,12 +94,12 @@ TEST_CASE("a writer killed at any moment leaves old or new content", "[edit][cra
         int status = 0;
         REQUIRE(::waitpid(writer, &status, 0) == writer);
         REQUIRE(WIFSIGNALED(status)); // otherwise the writer had failed
-        const std::string content = read(path);
+        const std::string content = contentOf(path);
         REQUIRE((content == a || content == b));
         sawB += content == b;
     }
     INFO(sawB << " of 40 stopped after the second content");
     // The next writer works, whatever lies about.
     CHECK(replaceFile(path, "end").empty());
-    CHECK(read(path) == "end");
+    CHECK(contentOf(path) == "end");
 }

@@ -6,7 +6,7 @@ using namespace rapid::config;
 
 namespace {
 
-CfgFile read(const std::string& text) {
+CfgFile parsed(const std::string& text) {
     std::vector<CfgProblem> problems;
     CfgFile file = parseCfg(text, "EIO.cfg", problems);
     REQUIRE(problems.empty());
@@ -37,13 +37,13 @@ void checkSame(const CfgFile& a, const CfgFile& b) {
 } // namespace
 
 TEST_CASE("a configuration reads back as it was written", "[config]") {
-    const CfgFile file = read("EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n"
-                              "      -Name \"doLamp\" -SignalType \"DO\" -Label \"text, with \\ # and - "
-                              "signs\" -DeviceMap \"0-3,8\"\\\n"
-                              "      -Default 1 -Negative -1 -FiltAct  -List 30,82\n\n"
-                              "      -Name \"x\" -Empty \"\"\n#\nA = B:\n\n      -name \"one\"\n");
+    const CfgFile file = parsed("EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n"
+                                "      -Name \"doLamp\" -SignalType \"DO\" -Label \"text, with \\ # and - "
+                                "signs\" -DeviceMap \"0-3,8\"\\\n"
+                                "      -Default 1 -Negative -1 -FiltAct  -List 30,82\n\n"
+                                "      -Name \"x\" -Empty \"\"\n#\nA = B:\n\n      -name \"one\"\n");
     const std::string text = writeCfg(file);
-    checkSame(read(text), file);
+    checkSame(parsed(text), file);
     // a boolean by presence alone, with a blank after it; lines of at most 80 columns (facts 6.1)
     CHECK(text.find("-FiltAct ") != std::string::npos);
     for (std::size_t begin = 0; begin < text.size();) {
@@ -58,7 +58,7 @@ TEST_CASE("values that look like something else are quoted", "[config]") {
     CfgFile file{{}, "EIO", "CFG_1.0:7:0::", {{"T", {}, {{}}, 0}}};
     for (const char* value : {"-name", "two words", "a,b", "", "back\\", "#", "plain", "-1.5", "-"})
         file.sections[0].instances[0].attributes.push_back({"A", {value}, false, 0});
-    const CfgFile back = read(writeCfg(file));
+    const CfgFile back = parsed(writeCfg(file));
     const auto& written = file.sections[0].instances[0].attributes;
     const auto& found = back.sections[0].instances[0].attributes;
     REQUIRE(found.size() == written.size());

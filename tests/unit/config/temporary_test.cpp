@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> entries(const fs::path& folder) {
+std::vector<std::string> entriesOf(const fs::path& folder) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder))
         names.push_back(entry.path().filename().string());
@@ -27,28 +27,28 @@ std::vector<std::string> entries(const fs::path& folder) {
 } // namespace
 
 TEST_CASE("a temporary file takes the place of its target or goes", "[edit]") {
-    const TemporaryFolder folder;
+    const ::TemporaryFolder folder;
     {
         rapid::config::TemporaryFile file;
         REQUIRE(file.make(folder.path, "x.mod") == 0);
-        CHECK(entries(folder.path).size() == 1);
+        CHECK(entriesOf(folder.path).size() == 1);
         removeLeftovers(folder.path); // this process lives
-        CHECK(entries(folder.path).size() == 1);
+        CHECK(entriesOf(folder.path).size() == 1);
         REQUIRE(file.renameTo(folder.path / "x.mod") == 0);
     }
-    CHECK(entries(folder.path) == std::vector<std::string>{"x.mod"});
+    CHECK(entriesOf(folder.path) == std::vector<std::string>{"x.mod"});
     {
         rapid::config::TemporaryFile file;
         REQUIRE(file.make(folder.path, "y.mod") == 0);
         rapid::config::TemporaryFolder inside;
         REQUIRE(inside.makeBeside(folder.path, std::string(255, 'n')) == 0); // a name has at most 255 bytes
-        CHECK(entries(folder.path).size() == 3);
+        CHECK(entriesOf(folder.path).size() == 3);
     }
-    CHECK(entries(folder.path) == std::vector<std::string>{"x.mod"});
+    CHECK(entriesOf(folder.path) == std::vector<std::string>{"x.mod"});
 }
 
 TEST_CASE("what a killed process leaves is removed, files of other programs stay", "[edit][crash]") {
-    const TemporaryFolder folder;
+    const ::TemporaryFolder folder;
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
@@ -60,17 +60,17 @@ TEST_CASE("what a killed process leaves is removed, files of other programs stay
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
     REQUIRE(WIFSIGNALED(status));
-    REQUIRE(entries(folder.path).size() == 2);
+    REQUIRE(entriesOf(folder.path).size() == 2);
     for (const char* name : {".x.mod.aB3dE6.tmp", ".x.mod.swp", "rapidc-notes.tmp", "x.mod",
                              ".rapidc-1-abcdef.tmp", ".x.rapidc-1-abc.tmp", ".x.rapidc-a-abcdef.tmp"})
         folder.write(name, "");
-    const auto before = entries(folder.path).size();
+    const auto before = entriesOf(folder.path).size();
     removeLeftoversBeside({(folder.path / "x.mod").string(), (folder.path / "y.mod").string()});
-    CHECK(entries(folder.path).size() == before - 2);
+    CHECK(entriesOf(folder.path).size() == before - 2);
 }
 
 TEST_CASE("leftovers are removed in all folders below, as far as it is allowed to look", "[edit][crash]") {
-    const TemporaryFolder folder;
+    const ::TemporaryFolder folder;
     const auto inner = folder.path / "a" / "b";
     REQUIRE(std::filesystem::create_directories(inner));
     const pid_t child = ::fork();
@@ -85,11 +85,11 @@ TEST_CASE("leftovers are removed in all folders below, as far as it is allowed t
     }
     int status = 0;
     REQUIRE(::waitpid(child, &status, 0) == child);
-    REQUIRE(entries(inner).size() == 2);
+    REQUIRE(entriesOf(inner).size() == 2);
     removeLeftoversBelow(folder.path, 1); // the folder itself
-    CHECK(entries(folder.path) == std::vector<std::string>{"a"});
-    CHECK(entries(inner).size() == 2);
+    CHECK(entriesOf(folder.path) == std::vector<std::string>{"a"});
+    CHECK(entriesOf(inner).size() == 2);
     removeLeftoversBelow(folder.path, 100);
-    CHECK(entries(inner).empty());
+    CHECK(entriesOf(inner).empty());
     removeLeftoversBelow(folder.path / "none", 100);
 }

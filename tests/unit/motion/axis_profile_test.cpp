@@ -1,6 +1,7 @@
 // AxisProfile: jerk-limited courses of axes in closed form, against the equations of motion and exact durations.
 
 #include "runtime/motion/axis_profile.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,13 +10,9 @@
 #include <random>
 #include <vector>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-double between(std::mt19937_64& random, double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A state that can be kept within the limits before and after.
 AxisState randomState(std::mt19937_64& random, const AxisLimits& limits) {

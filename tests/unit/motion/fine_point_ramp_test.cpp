@@ -2,16 +2,15 @@
 // point, and nothing else changes.
 
 #include "runtime/motion/motion_system.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
 
 struct Motion {
     std::vector<double> places; ///< mm from the start, at each ms

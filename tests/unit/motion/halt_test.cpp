@@ -1,6 +1,7 @@
 // Motors off: the arm brakes off its path, comes back to it, and continues (manual 2.2.6).
 
 #include "runtime/motion/motion_system.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,17 +9,9 @@
 #include <cmath>
 #include <random>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
-
-MotionSystem makeSystem() {
-    auto model = robot::loadRobotModel("IRB 120-3/0.58");
-    REQUIRE(model.hasValue());
-    return MotionSystem(*model);
-}
 
 MoveCommand line(const MotionSystem& system, double x, double y, double z) {
     MoveCommand command;
@@ -27,13 +20,6 @@ MoveCommand line(const MotionSystem& system, double x, double y, double z) {
     command.target.pose = robot::offs(command.target.pose, x, y, z);
     command.speed.vTcp = 400;
     command.confL = false;
-    return command;
-}
-
-MoveCommand joints(const Joints& target) {
-    MoveCommand command;
-    command.joints.robax = target;
-    command.speed.vTcp = 1000;
     return command;
 }
 
@@ -98,7 +84,7 @@ TEST_CASE("a halt takes the arm off its path, a start brings it back", "[motion]
 TEST_CASE("braking axes: steady, within their limits, at rest after speed over acceleration",
           "[motion][halt]") {
     MotionSystem system = makeSystem();
-    system.enqueue(joints({80, 20, -30, 60, 70, -90})).value();
+    system.enqueue(jointsTo({80, 20, -30, 60, 70, -90})).value();
     system.advanceTo(300 * kMs);
     const MotionState before = system.current();
     const robot::RobotModel& model = system.model();
@@ -126,9 +112,9 @@ TEST_CASE("halts, stops and starts at random: every move is reached, once", "[mo
     for (int round = 0; round < 30; ++round) {
         MotionSystem system = makeSystem();
         std::vector<MoveId> moves;
-        moves.push_back(system.enqueue(joints({30, 10, -10, 20, 50, 10})).value());
+        moves.push_back(system.enqueue(jointsTo({30, 10, -10, 20, 50, 10})).value());
         moves.push_back(system.enqueue(line(system, 20, -60, 40)).value());
-        moves.push_back(system.enqueue(joints({-20, 0, 5, 0, 40, 0})).value());
+        moves.push_back(system.enqueue(jointsTo({-20, 0, 5, 0, 40, 0})).value());
         const Joints goal = system.plannedEnd().robax;
         std::vector<int> reached(moves.size());
         const auto advance = [&](TimeNs time) {
@@ -165,14 +151,14 @@ TEST_CASE("halts, stops and starts at random: every move is reached, once", "[mo
 
 TEST_CASE("a path can be thrown away after a halt", "[motion][halt]") {
     MotionSystem system = makeSystem();
-    const MoveId first = system.enqueue(joints({60, 0, 0, 0, 30, 0})).value();
-    const MoveId second = system.enqueue(joints({70, 0, 0, 0, 30, 0})).value();
+    const MoveId first = system.enqueue(jointsTo({60, 0, 0, 0, 30, 0})).value();
+    const MoveId second = system.enqueue(jointsTo({70, 0, 0, 0, 30, 0})).value();
     system.advanceTo(200 * kMs);
     system.halt();
     system.clear(); // while it brakes
     CHECK(system.status(first) == MoveStatus::Cleared);
     CHECK(system.status(second) == MoveStatus::Cleared);
-    const MoveId third = system.enqueue(joints({5, 0, 0, 0, 30, 0})).value();
+    const MoveId third = system.enqueue(jointsTo({5, 0, 0, 0, 30, 0})).value();
     system.start();
     CHECK(finish(system, MotionEventKind::Reached, third) == 1);
     CHECK(isAt(system, {5, 0, 0, 0, 30, 0}));
@@ -182,7 +168,7 @@ TEST_CASE("a halt while standing is a stop", "[motion][halt]") {
     MotionSystem system = makeSystem();
     system.halt();
     CHECK(system.isStopRequested());
-    const MoveId move = system.enqueue(joints({5, 0, 0, 0, 30, 0})).value();
+    const MoveId move = system.enqueue(jointsTo({5, 0, 0, 0, 30, 0})).value();
     CHECK_FALSE(system.isMoving());
     system.start();
     CHECK(finish(system, MotionEventKind::Reached, move) == 1);

@@ -14,11 +14,11 @@ using namespace motion;
 
 namespace {
 
-constexpr TimeNs kTick = 1'000'000;
-constexpr double kSeconds = 1e-9 * static_cast<double>(kTick);
+constexpr TimeNs kStep = 1'000'000;
+constexpr double kStepSeconds = 1e-9 * static_cast<double>(kStep);
 constexpr double kDegrees = 57.295779513082323;
 
-MotionSystem smallRobot() {
+MotionSystem robotWithExternalAxes() {
     MotionOptions options;
     options.external[0] = {true, false, -1000, 1000, 1000, 5000}; // linear
     options.external[1] = {true, true, -360, 360, 500, 5000};     // rotating
@@ -71,24 +71,24 @@ Most measured(MotionSystem& system, const MoveCommand& command,
     const TimeNs begin = system.now();
     double previous = 0;
     for (int i = 0; i < 100'000 && !(system.isIdle() && !system.isMoving()); ++i) {
-        system.advanceTo(system.now() + kTick);
+        system.advanceTo(system.now() + kStep);
         if (atSecond) atSecond(1e-9 * static_cast<double>(system.now() - begin));
         std::rotate(last.begin(), last.begin() + 1, last.end());
         last[2] = system.current();
-        const auto rate = [](double a, double b) { return std::abs(b - a) / kSeconds; };
+        const auto rate = [](double a, double b) { return std::abs(b - a) / kStepSeconds; };
         const Vec3 way = last[2].tcp.pos - last[1].tcp.pos;
-        const double speed = norm(way) / kSeconds;
+        const double speed = norm(way) / kStepSeconds;
         most.tcp = std::max(most.tcp, speed);
-        most.gain = std::max(most.gain, (speed - previous) / kSeconds);
-        most.drop = std::max(most.drop, (previous - speed) / kSeconds);
+        most.gain = std::max(most.gain, (speed - previous) / kStepSeconds);
+        most.drop = std::max(most.drop, (previous - speed) / kStepSeconds);
         previous = speed;
         const Vec3 bend = way - (last[1].tcp.pos - last[0].tcp.pos);
-        most.world = std::max(most.world, norm(bend) / (kSeconds * kSeconds));
+        most.world = std::max(most.world, norm(bend) / (kStepSeconds * kStepSeconds));
         const double turn = std::min(1.0, std::abs(dot(last[1].tcp.rot, last[2].tcp.rot)));
-        most.turn = std::max(most.turn, 2 * std::acos(turn) * kDegrees / kSeconds);
+        most.turn = std::max(most.turn, 2 * std::acos(turn) * kDegrees / kStepSeconds);
         most.axis = std::max(most.axis, rate(last[1].joints[0], last[2].joints[0]));
         const double change = last[2].joints[0] - 2 * last[1].joints[0] + last[0].joints[0];
-        most.axisGain = std::max(most.axisGain, std::abs(change) / (kSeconds * kSeconds));
+        most.axisGain = std::max(most.axisGain, std::abs(change) / (kStepSeconds * kStepSeconds));
         for (std::size_t k = 0; k < most.external.size(); ++k)
             most.external[k] = std::max(most.external[k], rate(last[1].extax[k], last[2].extax[k]));
     }
@@ -111,7 +111,7 @@ double accelerationOfAxisOne(const MotionSystem& system) {
 } // namespace
 
 TEST_CASE("v_tcp, VelSet and the override limit the TCP", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = line(system, 200);
     double limit = 200;
     command.speed.vTcp = 200;
@@ -132,7 +132,7 @@ TEST_CASE("v_tcp, VelSet and the override limit the TCP", "[motion][limits]") {
 }
 
 TEST_CASE("v_ori limits a reorientation", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = fast(system, MoveKind::Linear);
     command.target.pose.rot = command.target.pose.rot * robot::fromEulerZyx(60, 0, 0);
     command.speed.vOri = 40;
@@ -141,7 +141,7 @@ TEST_CASE("v_ori limits a reorientation", "[motion][limits]") {
 
 TEST_CASE("an external axis out of range is judged before the way", "[motion][limits]") {
     // docs/motion.md, Path. The way through the foot of the robot is impossible, too.
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     JointTarget start = system.currentJoints();
     start.robax = {0, 0, 0, 0, 30, 0};
     REQUIRE(system.placeAt(start));
@@ -156,7 +156,7 @@ TEST_CASE("an external axis out of range is judged before the way", "[motion][li
 }
 
 TEST_CASE("v_leax and v_reax limit external axes", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = fast(system, MoveKind::AbsJoint);
     SECTION("linear") {
         command.joints.extax[0] += 300;
@@ -175,12 +175,12 @@ TEST_CASE("v_leax and v_reax limit external axes", "[motion][limits]") {
 }
 
 TEST_CASE("the speed of an axis is limited", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     checkBinds(measured(system, axisOne(system, 160)).axis, system.model().maxSpeed[0]);
 }
 
 TEST_CASE("the acceleration of an axis is limited", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = axisOne(system, 160);
     double limit = accelerationOfAxisOne(system);
     SECTION("AccSet") { // 40 % make the ramp long enough for the averaging to show the whole of it
@@ -218,7 +218,7 @@ TEST_CASE("the load of the recordings is part of what they gave", "[motion][limi
 
 // In the corner between two joint moves the tool turns back: slow at the turn, it must not be faster beside it.
 TEST_CASE("v_tcp holds where the tool turns back in a corner of axes", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = fast(system, MoveKind::AbsJoint);
     command.speed.vTcp = 100;
     command.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
@@ -232,7 +232,7 @@ TEST_CASE("v_tcp holds where the tool turns back in a corner of axes", "[motion]
 }
 
 TEST_CASE("PathAccLim limits both changes of speed apart", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = line(system, 250);
     command.speed.vTcp = 600;
     command.settings.pathAcceleration = 1;
@@ -243,7 +243,7 @@ TEST_CASE("PathAccLim limits both changes of speed apart", "[motion][limits]") {
 }
 
 TEST_CASE("WorldAccLim limits the TCP in every direction", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = line(system, 150);
     command.settings.worldAcceleration = 1;
     double share = 0.97; // nothing across a line
@@ -257,7 +257,7 @@ TEST_CASE("WorldAccLim limits the TCP in every direction", "[motion][limits]") {
 }
 
 TEST_CASE("a duration is kept, and limits hold all the same", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = axisOne(system, 100);
     SECTION("long enough") {
         command.duration = 3;
@@ -271,7 +271,7 @@ TEST_CASE("a duration is kept, and limits hold all the same", "[motion][limits]"
 }
 
 TEST_CASE("speed limits of a system input hold at once", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     SpeedLimits limits;
     SECTION("TCP") {
         MoveCommand command = line(system, 250);
@@ -302,7 +302,7 @@ TEST_CASE("speed limits of a system input hold at once", "[motion][limits]") {
 }
 
 TEST_CASE("a speed limit changes the movement in progress", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = line(system, 250);
     command.speed.vTcp = 100;
     SpeedLimits limits;
@@ -321,7 +321,7 @@ TEST_CASE("a speed limit changes the movement in progress", "[motion][limits]") 
 }
 
 TEST_CASE("a limited movement with a duration keeps its pace when the limit goes", "[motion][limits]") {
-    MotionSystem system = smallRobot();
+    MotionSystem system = robotWithExternalAxes();
     MoveCommand command = axisOne(system, 90);
     command.duration = 3; // about 32 deg/s
     SpeedLimits limits;

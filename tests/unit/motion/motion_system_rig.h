@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <random>
 #include <vector>
 
 namespace motion_testing {
@@ -12,6 +13,10 @@ namespace motion_testing {
 using namespace motion;
 
 inline constexpr TimeNs kMs = 1'000'000;
+
+inline double between(std::mt19937_64& random, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+}
 
 inline MotionSystem makeSystem(MotionOptions options = {}) {
     auto model = robot::loadRobotModel("IRB 120-3/0.58");

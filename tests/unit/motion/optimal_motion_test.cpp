@@ -3,6 +3,7 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/robot/dynamics.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,11 +11,9 @@
 #include <functional>
 #include <random>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
 
 MotionSystem smallRobot(Planner planner) {
     MotionOptions options;
@@ -25,7 +24,7 @@ MotionSystem smallRobot(Planner planner) {
 }
 
 /// Lines, circles and joint moves with and without zones.
-std::vector<MoveCommand> randomProgram(std::mt19937_64& random) {
+std::vector<MoveCommand> randomMoves(std::mt19937_64& random) {
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
@@ -101,7 +100,7 @@ TEST_CASE("the optimal planner keeps the limits of all axes at each ms", "[motio
 #endif
     std::mt19937_64 random(8);
     for (int n = 0; n < kPrograms; ++n) {
-        const std::vector<MoveCommand> program = randomProgram(random);
+        const std::vector<MoveCommand> program = randomMoves(random);
         MotionSystem system = smallRobot(Planner::Optimal);
         const std::vector<Joints> axes = run(system, program);
         const Use use = useOf(system, axes);
@@ -170,7 +169,7 @@ TEST_CASE("triggers of the optimal planner fire at their places", "[motion][opti
 TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion][optimal]") {
     std::mt19937_64 random(9);
     for (int n = 0; n < 20; ++n) {
-        std::vector<MoveCommand> program = randomProgram(random);
+        std::vector<MoveCommand> program = randomMoves(random);
         for (MoveCommand& command : program)
             command.speed.vTcp = 250;
         MotionSystem system = smallRobot(Planner::Optimal);
@@ -185,7 +184,7 @@ TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion]
 TEST_CASE("stops and the override keep the limits and the path of the optimal planner", "[motion][optimal]") {
     std::mt19937_64 random(10);
     for (int n = 0; n < 12; ++n) {
-        const std::vector<MoveCommand> program = randomProgram(random);
+        const std::vector<MoveCommand> program = randomMoves(random);
         MotionSystem plain = smallRobot(Planner::Optimal);
         plain.setOverride(20);
         const std::vector<Joints> slow = run(plain, program);

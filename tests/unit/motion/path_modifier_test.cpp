@@ -3,6 +3,7 @@
 #include "runtime/motion/motion_system.h"
 #include "runtime/motion/path_corrections.h"
 #include "runtime/motion/weaving.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,17 +12,9 @@
 #include <memory>
 #include <vector>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
-
-MotionSystem makeSystem() {
-    auto model = robot::loadRobotModel("IRB 120-3/0.58");
-    REQUIRE(model.hasValue());
-    return MotionSystem(*model);
-}
 
 /// Relative to the end of the last movement, in world (the robot is at its origin).
 MoveCommand lineBy(const MotionSystem& system, const Vec3& way, double speed = 100) {

@@ -3,6 +3,7 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/robot/dynamics.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,16 +13,11 @@
 #include <cstdlib>
 #include <random>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
 
-constexpr TimeNs kMs = 1'000'000;
 constexpr TimeNs kTick = 4 * kMs;
-
-double between(std::mt19937_64& random, double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 ZoneData randomZone(std::mt19937_64& random) {
     const double radii[] = {0, 0.3, 1, 5, 10, 20, 50, 100, 200};

@@ -3,17 +3,16 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/motion/path.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
 
 MotionSystem yumi(const char* name = "IRB 14050-0.5/0.559") {
     return MotionSystem(robot::loadRobotModel(name).value());
@@ -33,7 +32,8 @@ MoveCommand lineTo(const RobTarget& target, double zone = -1) {
 }
 
 /// A line by these mm and this change of the arm angle, from where the last move ends.
-MoveCommand lineBy(const MotionSystem& system, double x, double y, double z, double arm, double zone = -1) {
+MoveCommand armLineBy(const MotionSystem& system, double x, double y, double z, double arm,
+                      double zone = -1) {
     RobTarget target = here(system);
     target.pose = robot::offs(target.pose, x, y, z);
     target.armAngle += arm;
@@ -47,7 +47,7 @@ struct Sample {
 };
 
 /// Runs what is ordered to its end, with a sample each ms.
-std::vector<Sample> run(MotionSystem& system) {
+std::vector<Sample> samplesOf(MotionSystem& system) {
     std::vector<Sample> samples;
     for (int i = 0; i < 60'000 && (!system.isIdle() || system.isMoving()); ++i) {
         system.advanceTo(system.now() + kMs);
@@ -83,8 +83,8 @@ TEST_CASE("an arm with seven axes starts where its model says", "[motion][seven]
 TEST_CASE("the arm angle turns evenly along a line", "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
-    REQUIRE(system.enqueue(lineBy(system, 60, -40, 50, 12)).hasValue());
-    const auto samples = run(system);
+    REQUIRE(system.enqueue(armLineBy(system, 60, -40, 50, 12)).hasValue());
+    const auto samples = samplesOf(system);
     const Vec3 way{60, -40, 50};
     for (const Sample& sample : samples) {
         const Vec3 gone = sample.state.tcp.pos - from.pose.pos;
@@ -99,20 +99,20 @@ TEST_CASE("the arm angle turns evenly along a line", "[motion][seven]") {
 TEST_CASE("a free arm angle stays as it is on a line", "[motion][seven]") {
     MotionSystem system = yumi();
     const double before = here(system).armAngle;
-    MoveCommand command = lineBy(system, 40, 40, 40, 0);
+    MoveCommand command = armLineBy(system, 40, 40, 40, 0);
     command.target.armAngle = robot::kSeedArmAngle;
     REQUIRE(system.enqueue(command).hasValue());
-    for (const Sample& sample : run(system))
+    for (const Sample& sample : samplesOf(system))
         CHECK(sample.armAngle == Approx(before).margin(1e-6));
 }
 
 TEST_CASE("the arm angle can turn while the TCP is at rest", "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
-    MoveCommand command = lineBy(system, 0, 0, 0, 20);
+    MoveCommand command = armLineBy(system, 0, 0, 0, 20);
     command.speed.vReax = 10; // deg/s: eax_a is the place of a rotating external axis
     REQUIRE(system.enqueue(command).hasValue());
-    const auto samples = run(system);
+    const auto samples = samplesOf(system);
     CHECK(samples.back().seconds > 2.0);
     CHECK(samples.back().seconds < 2.5);
     for (const Sample& sample : samples)
@@ -125,7 +125,7 @@ TEST_CASE("the arm angle turns the short way", "[motion][seven]") {
     RobTarget target = here(system);
     target.armAngle += 10 + 720;
     REQUIRE(system.enqueue(lineTo(target)).hasValue());
-    const auto samples = run(system);
+    const auto samples = samplesOf(system);
     double most = 0;
     for (const Sample& sample : samples)
         most = std::max(most, std::fabs(std::remainder(sample.armAngle - target.armAngle, 360.0)));
@@ -135,11 +135,11 @@ TEST_CASE("the arm angle turns the short way", "[motion][seven]") {
 TEST_CASE("a circle carries the arm angle to that of its target", "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
-    MoveCommand command = lineBy(system, 40, 40, 0, 8);
+    MoveCommand command = armLineBy(system, 40, 40, 0, 8);
     command.kind = MoveKind::Circular;
     command.circlePoint = robot::offs(from.pose, 40, 0, 0); // a half circle about (20, 20)
     REQUIRE(system.enqueue(command).hasValue());
-    const auto samples = run(system);
+    const auto samples = samplesOf(system);
     const Vec3 centre = from.pose.pos + Vec3{20, 20, 0};
     for (const Sample& sample : samples)
         CHECK(norm(sample.state.tcp.pos - centre) == Approx(std::hypot(20.0, 20.0)).margin(1e-6));
@@ -148,22 +148,22 @@ TEST_CASE("a circle carries the arm angle to that of its target", "[motion][seve
 
 TEST_CASE("joint moves reach pose and arm angle of their target", "[motion][seven]") {
     MotionSystem system = yumi();
-    MoveCommand command = lineBy(system, 80, -30, 60, -10);
+    MoveCommand command = armLineBy(system, 80, -30, 60, -10);
     command.kind = MoveKind::Joint;
     REQUIRE(system.enqueue(command).hasValue());
-    run(system);
+    samplesOf(system);
     CHECK(norm(system.current().tcp.pos - command.target.pose.pos) < 1e-6);
     CHECK(here(system).armAngle == Approx(std::remainder(command.target.armAngle, 360.0)).margin(1e-6));
     // All seven axes start and arrive together.
     MoveCommand absolute;
     absolute.joints.robax = {10, -100, 20, 15, 50, 20, 100};
     REQUIRE(system.enqueue(absolute).hasValue());
-    run(system);
+    samplesOf(system);
     CHECK(system.current().joints == absolute.joints.robax);
     absolute.joints.robax[6] = kNotConnected; // axis 7 stays
     absolute.joints.robax[0] = 0;
     REQUIRE(system.enqueue(absolute).hasValue());
-    run(system);
+    samplesOf(system);
     CHECK(system.current().joints[6] == 100);
 }
 
@@ -196,13 +196,13 @@ TEST_CASE("corners of a seven-axis arm are smooth in all axes and in the arm ang
         CAPTURE(zone);
         MotionSystem system = yumi();
         const Vec3 from = system.current().tcp.pos;
-        REQUIRE(system.enqueue(lineBy(system, 60, 0, 0, 6, zone)).hasValue());
-        REQUIRE(system.enqueue(lineBy(system, 0, 0, 60, -4, zone)).hasValue());
-        MoveCommand joint = lineBy(system, 0, 40, 0, 3, zone);
+        REQUIRE(system.enqueue(armLineBy(system, 60, 0, 0, 6, zone)).hasValue());
+        REQUIRE(system.enqueue(armLineBy(system, 0, 0, 60, -4, zone)).hasValue());
+        MoveCommand joint = armLineBy(system, 0, 40, 0, 3, zone);
         joint.kind = MoveKind::Joint;
         REQUIRE(system.enqueue(joint).hasValue());
-        REQUIRE(system.enqueue(lineBy(system, -30, 0, 0, 0)).hasValue());
-        const auto samples = run(system);
+        REQUIRE(system.enqueue(armLineBy(system, -30, 0, 0, 0)).hasValue());
+        const auto samples = samplesOf(system);
         for (const MotionEvent& event : system.takeEvents())
             CHECK(event.kind != MotionEventKind::CornerLost);
         double nearest = 1e9;
@@ -223,10 +223,10 @@ TEST_CASE("the path of a seven-axis arm is the same at every override", "[motion
     const auto pathAt = [](double percent) {
         MotionSystem system = yumi();
         system.setOverride(percent);
-        REQUIRE(system.enqueue(lineBy(system, 60, 0, 0, 10, 20)).hasValue());
-        REQUIRE(system.enqueue(lineBy(system, 0, 20, 60, -5, 20)).hasValue());
-        REQUIRE(system.enqueue(lineBy(system, -40, 0, 0, 0)).hasValue());
-        return run(system);
+        REQUIRE(system.enqueue(armLineBy(system, 60, 0, 0, 10, 20)).hasValue());
+        REQUIRE(system.enqueue(armLineBy(system, 0, 20, 60, -5, 20)).hasValue());
+        REQUIRE(system.enqueue(armLineBy(system, -40, 0, 0, 0)).hasValue());
+        return samplesOf(system);
     };
     const auto slow = pathAt(10);
     std::size_t near = 0;
@@ -246,14 +246,14 @@ TEST_CASE("the path of a seven-axis arm is the same at every override", "[motion
 TEST_CASE("a stop holds a seven-axis arm on its path, and motors off let it return", "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
-    REQUIRE(system.enqueue(lineBy(system, 60, -40, 50, 12)).hasValue());
+    REQUIRE(system.enqueue(armLineBy(system, 60, -40, 50, 12)).hasValue());
     const JointTarget end = system.plannedEnd();
     system.advanceTo(150 * kMs);
     system.halt();
     system.advanceTo(1000 * kMs);
     CHECK_FALSE(system.isMoving());
     system.start();
-    const auto samples = run(system);
+    const auto samples = samplesOf(system);
     for (std::size_t i = 0; i < 7; ++i)
         CHECK(system.current().joints[i] == Approx(end.robax[i]).margin(1e-6));
     CHECK(norm(system.current().tcp.pos - from.pose.pos - Vec3{60, -40, 50}) < 1e-6);
@@ -269,8 +269,8 @@ TEST_CASE("moves that a seven-axis arm cannot make say why", "[motion][seven]") 
         CHECK(system.isIdle());
         return result.error().kind;
     };
-    CHECK(kindOf(lineBy(system, 2000, 0, 0, 0)) == MotionErrorKind::Unreachable);
-    MoveCommand angle = lineBy(system, 20, 0, 0, 0);
+    CHECK(kindOf(armLineBy(system, 2000, 0, 0, 0)) == MotionErrorKind::Unreachable);
+    MoveCommand angle = armLineBy(system, 20, 0, 0, 0);
     angle.target.armAngle = HUGE_VAL;
     CHECK(kindOf(angle) == MotionErrorKind::BadArgument);
     MoveCommand six;
@@ -283,20 +283,20 @@ TEST_CASE("moves that a seven-axis arm cannot make say why", "[motion][seven]") 
     CHECK(refused.error().kind == MotionErrorKind::JointOutOfRange);
     CHECK(refused.error().message().find("axis 7 would have to go to 170.00") != std::string::npos);
     // Axis 2 at 0: axes 1 and 7 are in line (manual 2.7). Joint moves pass it, a line along axis 1's plane does not.
-    MoveCommand wrong = lineBy(system, 20, 0, 0, 0);
+    MoveCommand wrong = armLineBy(system, 20, 0, 0, 0);
     wrong.target.conf.cfx ^= 4; // axis 2 above 0
     CHECK(kindOf(wrong) == MotionErrorKind::ConfigurationMismatch);
     wrong.kind = MoveKind::Joint;
     wrong.target.conf.cfx ^= 4;
     wrong.target.conf.cf1 += 2;
     CHECK(kindOf(wrong) == MotionErrorKind::NoSuchConfiguration);
-    MoveCommand tilted = lineBy(system, 20, 0, 0, 0);
+    MoveCommand tilted = armLineBy(system, 20, 0, 0, 0);
     tilted.target.pose.rot = {2, 0, 0, 0};
     CHECK(kindOf(tilted) == MotionErrorKind::BadArgument);
-    MoveCommand nowhere = lineBy(system, 20, 0, 0, 0);
+    MoveCommand nowhere = armLineBy(system, 20, 0, 0, 0);
     nowhere.target.pose.pos.y = std::nan("");
     CHECK(kindOf(nowhere) == MotionErrorKind::BadArgument);
-    MoveCommand circle = lineBy(system, 20, 20, 0, 0);
+    MoveCommand circle = armLineBy(system, 20, 20, 0, 0);
     circle.kind = MoveKind::Circular;
     circle.circlePoint = circle.target.pose;
     CHECK(kindOf(circle) == MotionErrorKind::CirclePointsTooClose);
@@ -318,12 +318,12 @@ TEST_CASE("a line through the singularity of the shoulder is refused, a joint mo
                              refused.error().kind == MotionErrorKind::JointOutOfRange;
         CHECK(isKnown);
     } else {
-        CHECK(fastestAxis(system, run(system)) < 1.1); // the line goes another way round
+        CHECK(fastestAxis(system, samplesOf(system)) < 1.1); // the line goes another way round
     }
     MotionSystem third = yumi();
     REQUIRE(third.placeAt({{0, -20, 20, 30, 60, 0, 40}, kNoExternalAxes}));
     REQUIRE(third.enqueue(over).hasValue());
-    CHECK(fastestAxis(third, run(third)) < 1.02);
+    CHECK(fastestAxis(third, samplesOf(third)) < 1.02);
 }
 
 TEST_CASE("external axes of a seven-axis arm begin at b", "[motion][seven]") {
@@ -344,7 +344,7 @@ TEST_CASE("at the circle point of a circle in steps the arm angle has come as fa
           "[motion][seven]") {
     MotionSystem system = yumi();
     const RobTarget from = here(system);
-    MoveCommand circle = lineBy(system, 40, 40, 0, 8);
+    MoveCommand circle = armLineBy(system, 40, 40, 0, 8);
     circle.kind = MoveKind::Circular;
     circle.circlePoint = robot::offs(from.pose, 40, 0, 0); // half of the way on a half circle
     const auto parts = splitAtCirclePoint(circle, from);

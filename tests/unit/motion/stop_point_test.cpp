@@ -1,6 +1,7 @@
 // Movements that follow a stop point (docs/motion.md, "Stops, waits and the program"; decision 115).
 
 #include "runtime/motion/motion_system.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,11 +9,9 @@
 #include <cmath>
 #include <vector>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
 
 MoveCommand lineBy(const MotionSystem& system, double mm) {
     MoveCommand command;

@@ -2,14 +2,13 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/motion/path.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
-
-constexpr TimeNs kMs = 1'000'000;
 
 /// A joint move, then two lines with a corner between them.
 MotionSystem underWay() {

@@ -2,6 +2,7 @@
 
 #include "runtime/motion/motion_system.h"
 #include "runtime/robot/dynamics.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,13 +10,11 @@
 #include <array>
 #include <cmath>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
 
-constexpr TimeNs kMs = 1'000'000;
-
-MotionSystem makeSystem(const char* model) {
+MotionSystem robotOf(const char* model) {
     auto loaded = robot::loadRobotModel(model);
     REQUIRE(loaded.hasValue());
     return MotionSystem(*loaded);
@@ -34,7 +33,7 @@ MoveCommand lineTo(const MotionSystem& system, double x, double y, double z, dou
 
 /// Two robots of different sizes that have begun to move together.
 struct Pair {
-    MotionSystem first = makeSystem("IRB 120-3/0.58"), second = makeSystem("IRB 1600-6/1.45");
+    MotionSystem first = robotOf("IRB 120-3/0.58"), second = robotOf("IRB 1600-6/1.45");
     std::vector<MotionSystem*> both{&first, &second};
     Pair() { REQUIRE(MotionSystem::beginTogether(both)); }
 
@@ -52,13 +51,6 @@ struct Pair {
         return true;
     }
 };
-
-/// Time of an event of the move.
-TimeNs timeOf(const std::vector<MotionEvent>& events, MotionEventKind kind, MoveId move) {
-    for (const MotionEvent& event : events)
-        if (event.kind == kind && event.move == move) return event.time;
-    return -1;
-}
 
 } // namespace
 

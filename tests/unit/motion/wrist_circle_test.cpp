@@ -2,17 +2,17 @@
 // cuts, what is refused.
 
 #include "runtime/motion/motion_system.h"
+#include "tests/unit/motion/motion_system_rig.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-using namespace motion;
+using namespace motion_testing;
 
 namespace {
 
-constexpr TimeNs kMs = 1'000'000;
 const Joints kBent{0, 10, 10, 20, 50, 60};
 
 MotionSystem armAt(const Joints& joints, const char* name = "IRB 120-3/0.58") {

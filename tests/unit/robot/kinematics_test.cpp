@@ -1,8 +1,7 @@
 // Properties of the closed-form kinematics: what the geometry demands, checked on random postures of several
 // models.
 
-#include "runtime/robot/kinematics.h"
-#include "runtime/robot/robot_model.h"
+#include "tests/unit/robot/posture_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,41 +10,18 @@
 #include <numbers>
 #include <random>
 
-using namespace robot;
+using namespace robot_testing;
 
 namespace {
 
 constexpr const char* kModels[] = {"IRB 120-3/0.58",   "IRB 140-6/0.81",   "IRB 1300-10/1.15",
                                    "IRB 2400-16/1.55", "IRB 4600-60/2.05", "IRB 6700-150/3.2"};
 
-RobotModel model(const char* name) {
-    auto loaded = loadRobotModel(name);
-    REQUIRE(loaded.hasValue());
-    return *loaded;
-}
-
 double angleDistance(double a, double b) {
     return std::fabs(std::remainder(a - b, 360.0));
 }
 
-class Postures {
-  public:
-    explicit Postures(const RobotModel& robot, unsigned seed = 7) : model_(robot), random_(seed) {}
-    Joints next() {
-        Joints joints;
-        for (std::size_t i = 0; i < joints.size(); ++i) {
-            joints[i] =
-                std::uniform_real_distribution<double>(model_.lowerDeg[i], model_.upperDeg[i])(random_);
-        }
-        return joints;
-    }
-
-  private:
-    const RobotModel& model_;
-    std::mt19937_64 random_;
-};
-
-bool isRegular(const Kinematics& kinematics, const Joints& joints) {
+bool isInvertible(const Kinematics& kinematics, const Joints& joints) {
     const Singularity near = kinematics.singularity(joints);
     return near.wristDeg > 0.5 && near.armMm > 1 && near.elbowDeg > 0.5;
 }
@@ -118,10 +94,10 @@ TEST_CASE("forward of inverse gives the pose, and every posture is found again",
                 for (std::size_t i = 0; i < 6; ++i)
                     distance = std::max(distance, angleDistance(found[i], joints[i]));
                 best = std::min(best, distance);
-                if (isRegular(kinematics, found) && kinematics.configuration(found).cfx != cfx)
+                if (isInvertible(kinematics, found) && kinematics.configuration(found).cfx != cfx)
                     ++branchesWrong;
             }
-            if (!isRegular(kinematics, joints)) continue;
+            if (!isInvertible(kinematics, joints)) continue;
             worstJoint = std::max(worstJoint, best < 1 ? best : 0.0);
             if (best > 1e-6) ++missing;
         }
@@ -140,7 +116,7 @@ TEST_CASE("away from singularities the inverse is exact to rounding", "[robot][k
     double worst = 0;
     for (int n = 0; n < 20000; ++n) {
         const Joints joints = postures.next();
-        if (!isRegular(kinematics, joints)) continue;
+        if (!isInvertible(kinematics, joints)) continue;
         const Pose flange = kinematics.forward(joints);
         const auto found = kinematics.inverse(flange, kinematics.configuration(joints), joints);
         REQUIRE(found.hasValue());
@@ -158,7 +134,7 @@ TEST_CASE("configuration data name the posture they were read from", "[robot][ki
         int wrong = 0;
         for (int n = 0; n < 20000; ++n) {
             const Joints joints = postures.next();
-            if (!isRegular(kinematics, joints)) continue;
+            if (!isInvertible(kinematics, joints)) continue;
             const ConfData conf = kinematics.configuration(joints);
             const auto found = kinematics.inverse(kinematics.forward(joints), conf, Joints{});
             double distance = 1e9;

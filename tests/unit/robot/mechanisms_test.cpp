@@ -1,7 +1,6 @@
 // Properties that hold for every mechanism, on random postures, and places of the flange worked out by hand.
 
-#include "runtime/robot/kinematics.h"
-#include "runtime/robot/robot_model.h"
+#include "tests/unit/robot/posture_rig.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,49 +9,14 @@
 #include <numbers>
 #include <random>
 
-using namespace robot;
+using namespace robot_testing;
 
 namespace {
 
-constexpr const char* kModels[] = {
+constexpr const char* kMechanisms[] = {
     "CRB 15000-5/0.95", "CRB 15000-10/1.52", "IRB 14050-0.5/0.559", "IRB 460-110/2.4",      "IRB 260-30/1.56",
     "IRB 660-180/3.15", "IRB 760-450/3.18",  "IRB 910SC-3/0.65",    "IRB 920T-6/0.55",      "IRB 360-1/1600",
     "IRB 360-3/1130",   "IRB 2400-16/1.55",  "IRB 390-15/1300",     "IRB 14000-0.5/0.559-L"};
-
-RobotModel model(const char* name) {
-    auto loaded = loadRobotModel(name);
-    REQUIRE(loaded.hasValue());
-    return *loaded;
-}
-
-/// Random postures inside the limits; a delta robot only with its elbows outward, the one posture it can be built in.
-class Postures {
-  public:
-    explicit Postures(const RobotModel& robot, unsigned seed = 7)
-        : model_(robot), kinematics_(robot), random_(seed) {}
-    Joints next() {
-        Joints joints = draw();
-        while (kinematics_.jointOutsideLimits(joints) != 0) // the rods of palletizers
-            joints = draw();
-        return joints;
-    }
-
-  private:
-    Joints draw() {
-        Joints joints = Joints::zeros(model_.lowerDeg.size());
-        for (std::size_t i = 0; i < joints.size(); ++i) {
-            const bool isArm = model_.kinematics == KinematicsKind::Delta && i < 3;
-            const double lower = isArm ? -20 : model_.lowerDeg[i];
-            const double upper = isArm ? 60 : model_.upperDeg[i];
-            joints[i] = std::uniform_real_distribution<double>(lower, upper)(random_);
-        }
-        return joints;
-    }
-
-    const RobotModel& model_;
-    Kinematics kinematics_;
-    std::mt19937_64 random_;
-};
 
 bool isRegular(const Kinematics& kinematics, const Joints& joints) {
     const Singularity near = kinematics.singularity(joints);
@@ -68,13 +32,6 @@ double distanceModuloTurns(const Kinematics& kinematics, const Joints& a, const 
         largest = std::max(
             largest, std::fabs(kinematics.isLinear(i) ? difference : std::remainder(difference, 360.0)));
     }
-    return largest;
-}
-
-double distance(const Joints& a, const Joints& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, std::fabs(a[i] - b[i]));
     return largest;
 }
 
@@ -170,7 +127,7 @@ TEST_CASE("a delta robot with equal arms hangs on its centre line", "[robot][kin
 
 TEST_CASE("every solution of every mechanism gives the pose, and the posture is among them",
           "[robot][kinematics]") {
-    for (const char* name : kModels) {
+    for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
         const Kinematics kinematics(robot);
@@ -228,7 +185,7 @@ TEST_CASE("solutions of an offset wrist come in pairs", "[robot][kinematics]") {
 
 TEST_CASE("configuration data of every mechanism name the posture they were read from",
           "[robot][kinematics]") {
-    for (const char* name : kModels) {
+    for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
         const Kinematics kinematics(robot);
@@ -253,7 +210,7 @@ TEST_CASE("configuration data of every mechanism name the posture they were read
 }
 
 TEST_CASE("every mechanism follows a path through joint space", "[robot][kinematics]") {
-    for (const char* name : kModels) {
+    for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
         const Kinematics kinematics(robot);
@@ -285,7 +242,7 @@ TEST_CASE("every mechanism follows a path through joint space", "[robot][kinemat
 
 TEST_CASE("the Jacobian of every mechanism is the derivative of its forward kinematics",
           "[robot][kinematics]") {
-    for (const char* name : kModels) {
+    for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
         const Kinematics kinematics(robot);
@@ -315,7 +272,7 @@ TEST_CASE("the Jacobian of every mechanism is the derivative of its forward kine
 }
 
 TEST_CASE("limits, reach and nonsense give reasons and never a crash", "[robot][kinematics]") {
-    for (const char* name : kModels) {
+    for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
         const Kinematics kinematics(robot);

@@ -1,31 +1,17 @@
 // The inverses that SingArea needs: wrist axes given, and axis 4 locked.
 
-#include "runtime/robot/kinematics.h"
-#include "runtime/robot/robot_model.h"
+#include "tests/unit/robot/posture_rig.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <random>
 
-using namespace robot;
+using namespace robot_testing;
 
 namespace {
 
 const Pose kTool{{30, -20, 150}, fromEulerZyx(20, 30, -10)};
-
-RobotModel model(const char* name) {
-    auto loaded = loadRobotModel(name);
-    REQUIRE(loaded.hasValue());
-    return *loaded;
-}
-
-double distance(const Joints& a, const Joints& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, std::fabs(a[i] - b[i]));
-    return largest;
-}
 
 constexpr const char* kSixAxes[] = {"IRB 120-3/0.58", "IRB 2400-16/1.55", "CRB 15000-5/0.95"};
 

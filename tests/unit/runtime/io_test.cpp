@@ -10,13 +10,13 @@ using Catch::Matchers::Contains;
 namespace {
 
 /// An I/O system on a clock of its own; a task is not needed for timed changes.
-struct Bench {
+struct IoBench {
     Scheduler scheduler{{}};
     IoSystem io{scheduler};
     std::vector<CfgProblem> problems;
     std::vector<std::string> changes;
 
-    explicit Bench(const std::string& sections = "") {
+    explicit IoBench(const std::string& sections = "") {
         const std::string text = "EIO:CFG_1.0:7:0::\n\n" + sections;
         io.configure(parseCfg(text, "EIO.cfg", problems), problems);
         io.finishConfiguration(problems);
@@ -50,7 +50,7 @@ const std::string kBasic = signals({"-Name \"di1\" -SignalType \"DI\"", "-Name \
 } // namespace
 
 TEST_CASE("signals are read from EIO with limits and defaults", "[io]") {
-    Bench bench(kBasic);
+    IoBench bench(kBasic);
     REQUIRE(bench.problems.empty());
     CHECK(bench.io.find("DI1") == bench.io.find("di1"));
     CHECK(bench.io.find("nothing") == -1);
@@ -72,7 +72,7 @@ TEST_CASE("signals are read from EIO with limits and defaults", "[io]") {
 }
 
 TEST_CASE("a new order for an output cancels the change that waits (manual 2.10)", "[io]") {
-    Bench bench(kBasic);
+    IoBench bench(kBasic);
     CHECK(bench.io.setDelayed(bench.handle("do1"), 1, 2 * kSecond) == IoResult::Ok);
     bench.runTo(kSecond);
     CHECK(bench.value("do1") == 0);
@@ -86,7 +86,7 @@ TEST_CASE("a new order for an output cancels the change that waits (manual 2.10)
 }
 
 TEST_CASE("pulses go up and come back; with high they end low", "[io]") {
-    Bench bench(kBasic);
+    IoBench bench(kBasic);
     CHECK(bench.io.pulse(bench.handle("do1"), kSecond, false) == IoResult::Ok);
     CHECK(bench.io.pulse(bench.handle("do2"), 2 * kSecond, false) == IoResult::Ok); // is 1: inverted
     bench.runTo(3 * kSecond);
@@ -100,7 +100,7 @@ TEST_CASE("pulses go up and come back; with high they end low", "[io]") {
 }
 
 TEST_CASE("any number of signals pulse, 20 are delayed at a time", "[io]") {
-    Bench bench;
+    IoBench bench;
     for (int i = 0; i < 25; ++i) {
         SignalConfig config;
         config.name = "o" + std::to_string(i);
@@ -128,7 +128,7 @@ TEST_CASE("cross connections: chains, conditions, last change wins (manual 2.10)
                              "      -Res \"do4\" -Act1 \"di2\"\n\n"
                              "      -Res \"do5\" -Act1 \"di6\" -Oper1 \"AND\" -Act2 \"do1\" -Act2_invert\n\n"
                              "      -Res \"do8\" -Act1 \"do7\"\n\n      -Res \"do8\" -Act1 \"di5\"\n";
-    Bench bench(
+    IoBench bench(
         signals({"-Name di1 -SignalType DI", "-Name di2 -SignalType DI", "-Name di5 -SignalType DI",
                  "-Name di6 -SignalType DI", "-Name do1 -SignalType DO", "-Name do4 -SignalType DO",
                  "-Name do5 -SignalType DO", "-Name do7 -SignalType DO", "-Name do8 -SignalType DO"}) +
@@ -155,8 +155,8 @@ TEST_CASE("cross connections: chains, conditions, last change wins (manual 2.10)
 }
 
 TEST_CASE("cross connections are settled before the program starts", "[io]") {
-    Bench bench(signals({"-Name a -SignalType DO", "-Name b -SignalType DO", "-Name c -SignalType DO"}) +
-                "#\n\nEIO_CROSS:\n\n      -Res c -Act1 b\n\n      -Res b -Act1 a -Act1_invert\n");
+    IoBench bench(signals({"-Name a -SignalType DO", "-Name b -SignalType DO", "-Name c -SignalType DO"}) +
+                  "#\n\nEIO_CROSS:\n\n      -Res c -Act1 b\n\n      -Res b -Act1 a -Act1_invert\n");
     REQUIRE(bench.problems.empty());
     CHECK(bench.value("b") == 1);
     CHECK(bench.value("c") == 1);
@@ -164,9 +164,10 @@ TEST_CASE("cross connections are settled before the program starts", "[io]") {
 }
 
 TEST_CASE("wrong cross connections are refused with place", "[io]") {
-    Bench bench(signals({"-Name a -SignalType DO", "-Name b -SignalType DO", "-Name x -SignalType AO"}) +
-                "#\n\nEIO_CROSS:\n\n      -Res b -Act1 a\n\n      -Res a -Act1 b\n\n      -Res a -Act1 x\n\n"
-                "      -Res a -Act1 nowhere\n\n      -Res b -Act1 a -Oper1 XOR -Act2 a\n");
+    IoBench bench(
+        signals({"-Name a -SignalType DO", "-Name b -SignalType DO", "-Name x -SignalType AO"}) +
+        "#\n\nEIO_CROSS:\n\n      -Res b -Act1 a\n\n      -Res a -Act1 b\n\n      -Res a -Act1 x\n\n"
+        "      -Res a -Act1 nowhere\n\n      -Res b -Act1 a -Oper1 XOR -Act2 a\n");
     REQUIRE(bench.problems.size() == 4);
     CHECK_THAT(bench.problems[0].text(), Contains("loop"));
     CHECK(bench.problems[0].line == 19);
@@ -177,7 +178,7 @@ TEST_CASE("wrong cross connections are refused with place", "[io]") {
 }
 
 TEST_CASE("wrong signals are refused with place and remedy", "[io]") {
-    Bench bench(
+    IoBench bench(
         signals({"-SignalType DI", "-Name a -SignalType XY", "-Name g -SignalType GO -DeviceMap \"0-40\"",
                  "-Name g -SignalType GO -DeviceMap \"oops\"", "-Name d -SignalType DI",
                  "-Name d -SignalType DO", "-Name v -SignalType AO -MaxLog 5 -MinLog 7",
@@ -189,7 +190,7 @@ TEST_CASE("wrong signals are refused with place and remedy", "[io]") {
 }
 
 TEST_CASE("listeners may remove themselves and add others while they are called", "[io]") {
-    Bench bench(kBasic);
+    IoBench bench(kBasic);
     int calls = 0;
     uint64_t number = 0;
     number = bench.io.addListener(bench.io.find("do1"), [&](SignalId, double, double) {
@@ -204,7 +205,7 @@ TEST_CASE("listeners may remove themselves and add others while they are called"
 }
 
 TEST_CASE("a simulated input keeps the client's value until the simulation ends", "[io]") {
-    Bench bench(kBasic + "#\n\nEIO_CROSS:\n\n      -Name \"c\" -Res \"di1\" -Act1 \"do1\"\n");
+    IoBench bench(kBasic + "#\n\nEIO_CROSS:\n\n      -Name \"c\" -Res \"di1\" -Act1 \"do1\"\n");
     const SignalId input = bench.io.find("di1");
     bench.io.simulate(input, true);
     CHECK(bench.io.isSimulated(input));

@@ -9,7 +9,7 @@ using namespace rt;
 namespace {
 
 /// An arm on a clock of its own.
-struct Bench {
+struct JogBench {
     Scheduler scheduler{{}};
     MotionDriver motion{scheduler, *robot::loadRobotModel("IRB 120-3/0.58")};
     Jogging jogging{scheduler, motion};
@@ -38,7 +38,7 @@ JogOrder axis(std::size_t i, double share) {
 } // namespace
 
 TEST_CASE("an axis moves while the order is repeated and stops by itself", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     REQUIRE(bench.jogging.order(axis(0, 0.5)).empty());
     bench.runFor(200 * kMillisecond);
     CHECK(bench.jogging.isMoving());
@@ -53,7 +53,7 @@ TEST_CASE("an axis moves while the order is repeated and stops by itself", "[jog
 }
 
 TEST_CASE("an increment is exact", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     bench.place({0, 0, 0, 0, 60, 0});
     const motion::Pose begin = bench.flange();
     JogOrder order;
@@ -75,7 +75,7 @@ TEST_CASE("an increment is exact", "[jogging]") {
 }
 
 TEST_CASE("jogging stays within ranges, speeds and reach", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     bench.place({0, 0, 0, 0, 115, 0});
     const robot::Kinematics& kinematics = bench.motion.system().kinematics();
     const double upper = kinematics.upperDeg()[4];
@@ -97,7 +97,7 @@ TEST_CASE("jogging stays within ranges, speeds and reach", "[jogging]") {
     }
     CHECK(bench.jogging.order(axis(4, -1)).empty()); // but back
 
-    Bench reach;
+    JogBench reach;
     reach.place({0, 0, 0, 0, 30, 0});
     JogOrder out;
     out.line = {1, 0, 0};
@@ -110,7 +110,7 @@ TEST_CASE("jogging stays within ranges, speeds and reach", "[jogging]") {
 }
 
 TEST_CASE("reorientation keeps the TCP, in the frame asked for", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     bench.place({0, 0, 0, 0, 60, 0});
     JogOrder order;
     order.frames.tool.tframe.pos = {0, 0, 100};
@@ -128,7 +128,7 @@ TEST_CASE("reorientation keeps the TCP, in the frame asked for", "[jogging]") {
 }
 
 TEST_CASE("another direction begins once the arm is at rest", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     REQUIRE(bench.jogging.order(axis(0, 1)).empty());
     bench.runFor(100 * kMillisecond);
     REQUIRE(bench.jogging.order(axis(1, 1)).empty());
@@ -139,7 +139,7 @@ TEST_CASE("another direction begins once the arm is at rest", "[jogging]") {
 }
 
 TEST_CASE("orders that make no sense are refused", "[jogging]") {
-    Bench bench;
+    JogBench bench;
     JogOrder both = axis(0, 1);
     both.line = {1, 0, 0};
     CHECK_FALSE(bench.jogging.order(both).empty());

@@ -65,15 +65,15 @@ std::unique_ptr<Loaded> load(const std::vector<std::string>& inputs,
 }
 
 using Names = std::vector<std::string>;
-const char* const kModule = "MODULE m\nENDMODULE\n";
+const char* const kEmptyModule = "MODULE m\nENDMODULE\n";
 
 } // namespace
 
 TEST_CASE("files and folders make up the main task", "[project]") {
     const Folder folder;
-    folder.write("b.modx", kModule);
-    folder.write("A.SYS", kModule);
-    folder.write("c.prg", kModule);
+    folder.write("b.modx", kEmptyModule);
+    folder.write("A.SYS", kEmptyModule);
+    folder.write("c.prg", kEmptyModule);
     folder.write("notes.txt", "nothing");
     folder.write("EIO.cfg", "EIO:CFG_1.0:6:0::\n");
     folder.write("SYSPAR/SYS.cfg", "SYS:CFG_1.0:6:0::\n");
@@ -91,7 +91,7 @@ TEST_CASE("files and folders make up the main task", "[project]") {
 
 TEST_CASE("a file that is named twice is read once", "[project]") {
     const Folder folder;
-    folder.write("main.modx", kModule);
+    folder.write("main.modx", kEmptyModule);
     const auto loaded =
         load({folder.path(), folder / "../" + fs::path(folder.path()).filename().string() + "/main.modx"});
     CHECK(loaded->ok);
@@ -101,8 +101,8 @@ TEST_CASE("a file that is named twice is read once", "[project]") {
 
 TEST_CASE("a folder without modules of its own means those of its subfolders", "[project]") {
     const Folder folder;
-    folder.write("PROGMOD/main.mod", kModule);
-    folder.write("SYSMOD/user.sys", kModule);
+    folder.write("PROGMOD/main.mod", kEmptyModule);
+    folder.write("SYSMOD/user.sys", kEmptyModule);
     const auto loaded = load({folder.path()});
     CHECK(loaded->ok);
     CHECK(loaded->files(0) == Names{"main.mod", "user.sys"});
@@ -110,8 +110,8 @@ TEST_CASE("a folder without modules of its own means those of its subfolders", "
 
 TEST_CASE("more tasks are named with their type", "[project]") {
     const Folder folder;
-    folder.write("main.modx", kModule);
-    folder.write("side.modx", kModule);
+    folder.write("main.modx", kEmptyModule);
+    folder.write("side.modx", kEmptyModule);
     const auto loaded = load({folder / "main.modx"}, {{"T_SIDE", "STATIC", {folder / "side.modx"}}});
     CHECK(loaded->ok);
     REQUIRE(loaded->project.tasks.size() == 2);
@@ -125,8 +125,8 @@ TEST_CASE("a program file lists its modules", "[project]") {
     const std::string program = folder.write(
         "job.pgf", "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\r\n<Program>\r\n"
                    "\t<Module>Main.MOD</Module>\r\n\t<Module> A&amp;B.mod </Module>\r\n</Program>");
-    folder.write("main.mod", kModule);
-    folder.write("A&B.mod", kModule);
+    folder.write("main.mod", kEmptyModule);
+    folder.write("A&B.mod", kEmptyModule);
     const auto loaded = load({program});
     CHECK(loaded->ok);
     CHECK(loaded->files(0) == Names{"main.mod", "A&B.mod"});
@@ -137,7 +137,7 @@ TEST_CASE("a program file lists its modules", "[project]") {
                                                         "f.mod</Module></Program>");
     folder.write("Pr\xFC"
                  "f.mod",
-                 kModule); // ISO 8859-1
+                 kEmptyModule); // ISO 8859-1
     CHECK(load({moved})->codes().empty());
     CHECK(load({moved})->files(0) == Names{"main.mod", "A&B.mod",
                                            "Pr\xFC"
@@ -165,7 +165,7 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     folder.write("empty/readme.txt", "x");
     CHECK(load({folder / "none.modx"})->codes() == Names{"RAP6020"});
     CHECK(load({folder / "empty"})->codes() == Names{"RAP6022"});
-    folder.write("deep/a/b/c.modx", kModule);
+    folder.write("deep/a/b/c.modx", kEmptyModule);
     CHECK(load({folder / "deep"})->codes() == Names{"RAP6022"}); // which says where they are
     CHECK(load({folder / "empty/readme.txt"})->codes() == Names{"RAP6023"});
     CHECK(load({})->codes() == Names{"RAP6026"});
@@ -173,7 +173,7 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     const std::string config = folder.write("EIO.cfg", "EIO:CFG_1.0:6:0::\n");
     CHECK(load({config})->codes() == Names{"RAP6026"});
     if (::geteuid() != 0) { // root reads everything
-        const std::string secret = folder.write("secret.modx", kModule);
+        const std::string secret = folder.write("secret.modx", kEmptyModule);
         fs::permissions(secret, fs::perms::none);
         CHECK(load({secret})->codes() == Names{"RAP6021"});
     }

@@ -71,8 +71,8 @@ class Served {
     std::thread thread_;
 };
 
-const auto isRunning = [](VirtualController& controller) { return controller.isRunning(); };
-const auto isStopped = [](VirtualController& controller) { return !controller.isRunning(); };
+const auto programRuns = [](VirtualController& controller) { return controller.isRunning(); };
+const auto programIsStopped = [](VirtualController& controller) { return !controller.isRunning(); };
 
 rt::Task& robotTask(VirtualController& controller) {
     return *controller.core().tasks().front();
@@ -94,15 +94,15 @@ ENDMODULE
 TEST_CASE("a controller without program start waits with its motors off", "[service]") {
     Served served(kCounter);
     REQUIRE(served.opened == rt::ExitStatus::Ended);
-    CHECK_FALSE(served.ask(isRunning));
+    CHECK_FALSE(served.ask(programRuns));
     CHECK(served.ask([](VirtualController& c) { return c.panel().motors; }) == MotorState::Off);
     CHECK(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }) != "");
     CHECK(served.ask([](VirtualController& c) { return c.setMotors(true); }).empty());
     CHECK(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
-    CHECK(served.ask(isRunning));
+    CHECK(served.ask(programRuns));
     CHECK(served.comes([](VirtualController& c) { return robotTask(c).cyclesDone() > 2; }));
     CHECK(served.ask([](VirtualController& c) { return c.stop(StopMode::Stop); }).empty());
-    CHECK(served.comes(isStopped));
+    CHECK(served.comes(programIsStopped));
     served.end();
     CHECK(served.status == rt::ExitStatus::Ended);
 }
@@ -110,7 +110,7 @@ TEST_CASE("a controller without program start waits with its motors off", "[serv
 TEST_CASE("with program start main runs for ever", "[service]") {
     Served served(kCounter, true);
     CHECK(served.comes([](VirtualController& c) { return robotTask(c).cyclesDone() > 3; }));
-    CHECK(served.ask(isRunning));
+    CHECK(served.ask(programRuns));
 }
 
 TEST_CASE("cycle once: main is executed once by each start, and variables keep their values", "[service]") {
@@ -119,7 +119,7 @@ TEST_CASE("cycle once: main is executed once by each start, and variables keep t
     served.ask([](VirtualController& c) { return c.setRunOnce(true); });
     for (int i = 1; i <= 2; ++i) {
         REQUIRE(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
-        REQUIRE(served.comes(isStopped));
+        REQUIRE(served.comes(programIsStopped));
         CHECK(served.value("count") == std::to_string(i));
         CHECK(served.value("inner") == std::to_string(i));
     }
@@ -128,7 +128,7 @@ TEST_CASE("cycle once: main is executed once by each start, and variables keep t
 TEST_CASE("the end of a cycle stops the program", "[service]") {
     Served served(kCounter, true);
     CHECK(served.ask([](VirtualController& c) { return c.stop(StopMode::Cycle); }).empty());
-    CHECK(served.comes(isStopped));
+    CHECK(served.comes(programIsStopped));
     CHECK(served.ask([](VirtualController& c) { return robotTask(c).startsAtMain(); }));
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("steps execute one instruction of the task", "[service]") {
     const auto step = [](VirtualController& c) { return c.start(ExecutionMode::StepOver); };
     for (int i = 0; i <= 1; ++i) {
         REQUIRE(served.ask(step).empty());
-        REQUIRE(served.comes(isStopped));
+        REQUIRE(served.comes(programIsStopped));
         CHECK(served.value("count") == "1");
         CHECK(served.value("inner") == std::to_string(i));
     }
@@ -149,12 +149,12 @@ TEST_CASE("the program pointer goes to a line of another routine", "[service]") 
                   "x := 1;\n    "
                   "x := x + 10;\n    Stop;\n  ENDPROC\nENDMODULE\n",
                   true);
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     REQUIRE(
         served.ask([](VirtualController& c) { return c.pointerToLine(robotTask(c), "Cycle", 8); }).empty());
     REQUIRE(served.comes([](VirtualController& c) { return robotTask(c).place().line == 8; }));
     REQUIRE(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     CHECK(served.value("x") == "10"); // line 7 was not executed
     CHECK(served.ask([](VirtualController& c) { return c.pointerToLine(robotTask(c), "Cycle", 2); }) != "");
 }
@@ -164,14 +164,14 @@ TEST_CASE("orders that follow a pointer to line wait until it is there", "[servi
                   "x := 1;\n    "
                   "x := x + 10;\n    Stop;\n  ENDPROC\nENDMODULE\n",
                   true);
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     const auto orders = [](VirtualController& c) -> std::string {
         if (Refusal refusal = c.pointerToLine(robotTask(c), "Cycle", 8); !refusal.empty()) return refusal;
         return c.start(ExecutionMode::Continue);
     };
     REQUIRE(served.ask(orders) == "");
     CHECK(served.comes([](VirtualController& c) { return robotTask(c).place().line == 9; }));
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     CHECK(served.value("x") == "10"); // execution began in line 8
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("a restart keeps persistents; a cold one begins again", "[service]") {
     served.ask([](VirtualController& c) { return c.setMotors(true); });
     served.ask([](VirtualController& c) { return c.setRunOnce(true); });
     served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); });
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     REQUIRE(served.value("count") == "1");
     CHECK(served.ask([](VirtualController& c) { return c.restart(RestartMode::Warm); }).empty());
     CHECK(served.value("count") == "1"); // the command waits for the next controller
@@ -214,7 +214,7 @@ TEST_CASE("the text of a compiled module can be replaced; data keep their values
     served.ask([](VirtualController& c) { return c.setMotors(true); });
     served.ask([](VirtualController& c) { return c.setRunOnce(true); });
     served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); });
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     const auto replace = [](const std::string& text) {
         return [text](VirtualController& c) { return c.setModuleText(robotTask(c), "cycle", text); };
     };
@@ -228,7 +228,7 @@ TEST_CASE("the text of a compiled module can be replaced; data keep their values
             .empty());
     CHECK(served.value("count") == "1");
     REQUIRE(served.ask([](VirtualController& c) { return c.start(ExecutionMode::Continue); }).empty());
-    REQUIRE(served.comes(isStopped));
+    REQUIRE(served.comes(programIsStopped));
     CHECK(served.value("count") == "101");
     std::string text;
     CHECK(served.ask([&](VirtualController& c) { return c.moduleText(robotTask(c), "Cycle", text); }));
@@ -250,7 +250,7 @@ TEST_CASE("an emergency stop takes the motors off until it is released and they 
           "[service]") {
     Served served(kCounter, true);
     served.ask([](VirtualController& c) { return c.pressEmergencyStop(true), 0; });
-    CHECK(served.comes(isStopped));
+    CHECK(served.comes(programIsStopped));
     CHECK(served.ask([](VirtualController& c) { return c.panel().motors; }) == MotorState::EmergencyStop);
     CHECK(served.ask([](VirtualController& c) { return c.setMotors(true); }) != "");
     served.ask([](VirtualController& c) { return c.pressEmergencyStop(false), 0; });

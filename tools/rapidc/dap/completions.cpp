@@ -14,7 +14,7 @@ namespace rapidc::dap {
 
 namespace {
 
-constexpr std::size_t kMost = 500;
+constexpr std::size_t kMostItems = 500;
 
 bool isPartOfName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
@@ -30,7 +30,8 @@ class Items {
   public:
     Items(std::string prefix, std::size_t start) : prefix_(std::move(prefix)), start_(start) {}
     void add(const std::string& name, const char* type, const std::string& detail = "") {
-        if (!beginsWith(name, prefix_) || list_.size() >= kMost || !known_.insert(rt::upperCase(name)).second)
+        if (!beginsWith(name, prefix_) || list_.size() >= kMostItems ||
+            !known_.insert(rt::upperCase(name)).second)
             return;
         Json item{{"label", name}, {"type", type}, {"start", start_}, {"length", prefix_.size()}};
         if (!detail.empty()) item["detail"] = detail;
