@@ -470,13 +470,13 @@ class Builder {
   private:
     TypeId typeOf(ValueId value) const { return valueType(routine_.insts[value]); }
     Module& module_;
-    /// Null, false and addresses of data, which calls with many optional arguments need again and again: one instruction each
-    /// in a block.
     /// A value that several instructions of a block use; valid while `span` is the one in progress.
     struct SharedValue {
         uint32_t span = 0;
         ValueId value = kNone;
     };
+    /// Null, false and addresses of data, which calls with many optional arguments need again and again: one instruction each
+    /// in a block.
     ValueId shared(SharedValue& known, Inst inst);
     void beginShared();
 

@@ -62,6 +62,21 @@ double zoneEnd(const Corner& corner) {
     return end;
 }
 
+/// Derivatives of the axes by place in the middle of a stretch, from points `step` before and after it.
+void differentiate(RouteStretch& stretch, const RoutePoint& low, const RoutePoint& high, double step) {
+    stretch.first = stretch.second = robot::Joints::zeros(stretch.middle.joints.size());
+    for (std::size_t i = 0; i < stretch.first.size(); ++i) {
+        stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
+        stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
+    }
+    for (std::size_t i = 0; i < stretch.externalFirst.size(); ++i) {
+        if (!isConnected(stretch.middle.extax[i])) continue;
+        stretch.externalFirst[i] = (high.extax[i] - low.extax[i]) / (2 * step);
+        stretch.externalSecond[i] =
+            (high.extax[i] - 2 * stretch.middle.extax[i] + low.extax[i]) / (step * step);
+    }
+}
+
 /// mm that a point covers a mm of route, on average between two places.
 template <class PointAt> double meanRate(double from, double to, const PointAt& pointAt) {
     constexpr int kParts = 8;
@@ -318,19 +333,9 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
     std::optional<Pose> beforeTcp, hereTcp, afterTcp;
     stretch.middle = pointAt(middle, seed, &hereTcp);
-    stretch.first = stretch.second = robot::Joints::zeros(seed.size());
     const RoutePoint low = pointAt(middle - step, stretch.middle.joints, &beforeTcp);
     const RoutePoint high = pointAt(middle + step, stretch.middle.joints, &afterTcp);
-    for (std::size_t i = 0; i < stretch.first.size(); ++i) {
-        stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
-        stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
-    }
-    for (std::size_t i = 0; i < stretch.externalFirst.size(); ++i) {
-        if (!isConnected(stretch.middle.extax[i])) continue;
-        stretch.externalFirst[i] = (high.extax[i] - low.extax[i]) / (2 * step);
-        stretch.externalSecond[i] =
-            (high.extax[i] - 2 * stretch.middle.extax[i] + low.extax[i]) / (step * step);
-    }
+    differentiate(stretch, low, high, step);
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
     const Pose before = beforeTcp ? *beforeTcp : tcpOf(frames, low, middle - step);

@@ -41,11 +41,6 @@ std::string programFile(const std::vector<std::string>& files) {
     return text + "</Program>\n";
 }
 
-bool isFileName(const std::string& name) {
-    return !name.empty() && name.size() <= 80 && name.front() != '.' &&
-           name.find_first_of("/\\:$\n\r\t") == std::string::npos;
-}
-
 class FileArea final : public Area {
   public:
     explicit FileArea(const Context& context)
@@ -119,7 +114,8 @@ Json FileArea::saveProgram(const Json& params) {
             throw RequestError{code::kFailed, fmt::format("{} cannot be written: {}", files.back(), problem)};
     }
     const std::string name = textOr(params, "name", controller_.core().program().name);
-    if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a file may have", name));
+    if (!service::isPlainFileName(name))
+        badRequest(fmt::format("{} is not a name that a file may have", name));
     const std::string file = (fs::path(folder.host) / (name + ".pgf")).string();
     if (const std::string problem = rapid::config::replaceFile(file, programFile(files)); !problem.empty())
         throw RequestError{code::kFailed, fmt::format("{}.pgf cannot be written: {}", name, problem)};
@@ -152,7 +148,8 @@ Json FileArea::loadProgram(const Json& params) {
 /// The content is taken now; a worker writes it, so that programs do not wait for the disk.
 DiskWork FileArea::backup(const Json& params) {
     const std::string name = textOf(params, "name");
-    if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
+    if (!service::isPlainFileName(name))
+        badRequest(fmt::format("{} is not a name that a folder may have", name));
     std::string host;
     if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone())
         fail(found);
@@ -172,7 +169,8 @@ DiskWork FileArea::backup(const Json& params) {
 Json FileArea::restore(const Json& params) {
     const std::string name = textOf(params, "name");
     std::string host;
-    if (!isFileName(name)) badRequest(fmt::format("{} is not a name that a folder may have", name));
+    if (!service::isPlainFileName(name))
+        badRequest(fmt::format("{} is not a name that a folder may have", name));
     if (const service::FileResult found = volumes_.hostPath("BACKUP/" + name, host); !found.isDone())
         fail(found);
     if (!rapid::project::isBackup(host)) notFound(fmt::format("BACKUP:/{} is not a backup", name));

@@ -8,6 +8,7 @@
 #include "tools/rws/module_text.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/symbol_text.h"
+#include "tools/service/file_volumes.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -47,12 +48,6 @@ std::string extensionOf(std::string_view name) {
             return std::string(name.substr(name.size() - extension.size()));
     }
     return {};
-}
-
-/// A bare name of a file.
-bool isFileName(std::string_view name) {
-    return !name.empty() && name.size() <= 200 && name.find_first_of("/\\:") == std::string_view::npos &&
-           name.find('\0') == std::string_view::npos && name != "." && name != "..";
 }
 
 } // namespace
@@ -280,7 +275,7 @@ Reply Modules::save(const Request& request, const Asked& asked) {
     std::string name = request.form.text("name");
     if (name.empty()) name = asked.module->name;
     const std::string folder = request.form.text("path");
-    if (!isFileName(name)) return badParameter("name", "the name of a file, without a folder");
+    if (!service::isPlainFileName(name)) return badParameter("name", "the name of a file, without a folder");
     const std::string extension = extensionOf(name);
     if (request.dialect == Dialect::V2)
         name = name.substr(0, name.size() - extension.size()) + ".modx";

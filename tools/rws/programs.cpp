@@ -7,6 +7,7 @@
 #include "frontend/project/program_file.h"
 #include "tools/rws/module_text.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/service/file_volumes.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 using rapid::config::sameName;
 
 constexpr const char* kProgramPath = "/rw/rapid/tasks/{task}/program";
-
-bool isFileName(const std::string& name) {
-    return !name.empty() && name.size() <= 80 && name.find_first_of("/\\:\n\r") == std::string::npos &&
-           name.find('\0') == std::string::npos && name.front() != '.';
-}
 
 std::string programFile(const std::vector<std::string>& files) {
     std::string text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\n<Program>\n";
@@ -140,7 +136,7 @@ Reply Programs::save(const Request& request) {
     const std::string given = request.form.text("path");
     std::string name = fieldOf(request, "name");
     if (name.empty()) name = nameOf(*task);
-    if (!isFileName(name)) return badParameter("name", "a name that a file may have");
+    if (!service::isPlainFileName(name)) return badParameter("name", "a name that a file may have");
     if (!sameName(fs::path(name).extension().string(), ".pgf")) name += ".pgf";
     const std::optional<VolumePath> folder = volumePath(controller_, given);
     std::error_code code;
@@ -177,7 +173,7 @@ Reply Programs::setName(const Request& request) {
     const rt::Task* task = taskOf(controller_, request);
     if (task == nullptr) return noTask(request);
     const std::string name = request.form.text("name");
-    if (!isFileName(name)) return badParameter("name", "a name that a file may have");
+    if (!service::isPlainFileName(name)) return badParameter("name", "a name that a file may have");
     names_[task->name()] = name;
     return Reply::done();
 }

@@ -222,8 +222,7 @@ Reply Users::requestPrivilege(const Request& request) {
     if (std::none_of(std::begin(kLevels), std::end(kLevels),
                      [&](const char* each) { return rapid::config::sameName(each, level); }))
         return badParameter("privilege", "modify or exec");
-    privileged_.insert(request.session->number);
-    names_[request.session->number] = request.session->user;
+    grantPrivilege(*request.session);
     return Reply::done(202);
 }
 
@@ -235,13 +234,16 @@ Reply Users::setPrivilege(const Request& request) {
     const auto number = wholeIn(request.form.text("uid"), 1, std::numeric_limits<int64_t>::max());
     const auto session = number ? sessions_.find(static_cast<uint64_t>(*number)) : sessions_.end();
     if (session == sessions_.end()) return badParameter("uid", "the userid of GET /users/rmmp");
-    if (is("deny")) {
+    if (is("deny"))
         privileged_.erase(session->first);
-    } else {
-        privileged_.insert(session->first);
-        names_[session->first] = session->second->user;
-    }
+    else
+        grantPrivilege(*session->second);
     return Reply::done();
+}
+
+void Users::grantPrivilege(const Session& session) {
+    privileged_.insert(session.number);
+    names_[session.number] = session.user;
 }
 
 Reply Users::privilege(const Request& request) const {

@@ -33,6 +33,7 @@ class Users {
     Reply loginInfo(const Request& request) const;
     Reply requestPrivilege(const Request& request);
     Reply setPrivilege(const Request& request);
+    void grantPrivilege(const Session& session);
     Reply privilege(const Request& request) const;
     Reply poll(const Request& request) const;
     void addGrants(Router& router);

@@ -39,9 +39,9 @@ std::pair<std::string, std::string> split(const std::string& path) {
 }
 
 /// A name for a new entry of a folder.
-bool isBareName(const std::string& name) {
+bool isBareName(std::string_view name) {
     return !name.empty() && name.size() <= 255 && name != "." && name != ".." &&
-           name.find_first_of("/\\") == std::string::npos &&
+           name.find_first_of("/\\") == std::string_view::npos &&
            std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
@@ -64,6 +64,11 @@ bool statusOf(const VolumePlace& place, struct stat& status) {
 }
 
 } // namespace
+
+bool isPlainFileName(std::string_view name) {
+    return isBareName(name) && name.size() <= 200 && name.front() != '.' &&
+           name.find_first_of(":$") == std::string_view::npos;
+}
 
 bool FileVolumes::add(const std::string& name, const std::string& folder) {
     std::string error;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct FileEntry {
     uint64_t size = 0;                 ///< bytes
     int64_t created = 0, modified = 0; ///< seconds since 1970
 };
+
+/// A name for a new file of programs and modules: without folder, volume and control characters, not hidden, at most 200 bytes.
+bool isPlainFileName(std::string_view name);
 
 /// A path in a volume: "$HOME/part/a.mod". The volume's name in any case, with or without '$'.
 class FileVolumes {
