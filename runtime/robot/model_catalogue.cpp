@@ -25,6 +25,7 @@ struct NameParts {
     std::string series;
     std::string family;
     std::vector<std::string> details; // payload, reach and suffixes, in any order
+    std::string side;                 // "l" or "r": the arm of a robot that has two
 };
 
 bool isNameCharacter(char c) {
@@ -56,10 +57,17 @@ bool isEdition(const std::string& token) {
     return token.size() == 5 && token.rfind("type", 0) == 0;
 }
 
+/// "05", as in ROB_R_14000_05_05_TYPEA: 0.5.
+bool isFigureWithoutPoint(const std::string& token) {
+    return token.size() > 1 && token.front() == '0' &&
+           std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 NameParts takeApart(std::string_view name) {
     NameParts parts;
     bool isUnitNumber = false; // ROB_1, Type B
     for (std::string token : tokens(name)) {
+        if (isUnitNumber && (token == "l" || token == "r")) parts.side = token; // ROB_R_14000
         const bool skip = isMechanicalUnit(token) || isEdition(token) || token == "type" ||
                           (isUnitNumber && token.size() == 1);
         isUnitNumber = token == "rob" || token == "type";
@@ -73,6 +81,8 @@ NameParts takeApart(std::string_view name) {
         if (token.empty()) continue;
         if (parts.family.empty())
             parts.family = token;
+        else if (isFigureWithoutPoint(token))
+            parts.details.push_back("0." + token.substr(1));
         else
             parts.details.push_back(token);
     }
@@ -92,29 +102,46 @@ bool isSameDetail(const std::string& a, const std::string& b) {
     return a == b;
 }
 
-bool hasDetails(const NameParts& wanted, const NameParts& model) {
+/// What a name may leave out of the full one.
+struct Shortened {
+    bool family = false;  ///< the end: "1660" for "1660ID"
+    bool figures = false; ///< the last decimals: "0.5" for "0.559"
+};
+
+bool isShortenedFigure(const std::string& shortened, const std::string& figure) {
+    return shortened.find('.') != std::string::npos && figure.starts_with(shortened);
+}
+
+bool hasDetails(const NameParts& wanted, const NameParts& model, bool figuresMayBeShortened) {
     std::vector<std::string> open = model.details;
+    if (!wanted.side.empty()) {
+        const auto side =
+            std::find_if(open.begin(), open.end(), [](const std::string& d) { return d == "l" || d == "r"; });
+        if (side != open.end() && *side != wanted.side) return false;
+        if (side != open.end()) open.erase(side);
+    }
     for (const std::string& detail : wanted.details) {
-        const auto found = std::find_if(open.begin(), open.end(),
-                                        [&](const std::string& d) { return isSameDetail(d, detail); });
+        const auto found = std::find_if(open.begin(), open.end(), [&](const std::string& d) {
+            return isSameDetail(d, detail) || (figuresMayBeShortened && isShortenedFigure(detail, d));
+        });
         if (found == open.end()) return false;
         open.erase(found);
     }
     return true;
 }
 
-bool fits(const NameParts& wanted, const NameParts& model, bool familyMayBeShortened) {
+bool fits(const NameParts& wanted, const NameParts& model, Shortened shortened) {
     if (!wanted.series.empty() && wanted.series != model.series) return false;
     const bool isFamily =
-        familyMayBeShortened ? model.family.rfind(wanted.family, 0) == 0 : model.family == wanted.family;
-    return isFamily && hasDetails(wanted, model);
+        shortened.family ? model.family.starts_with(wanted.family) : model.family == wanted.family;
+    return isFamily && hasDetails(wanted, model, shortened.figures);
 }
 
 std::vector<const RobotModel*> select(const std::vector<RobotModel>& models, std::string_view name) {
     std::vector<const RobotModel*> found;
     const NameParts wanted = takeApart(name);
     if (wanted.family.empty()) return found;
-    for (bool shortened : {false, true}) {
+    for (const Shortened shortened : {Shortened{}, Shortened{true, false}, Shortened{false, true}}) {
         for (const RobotModel& model : models) {
             if (fits(wanted, takeApart(model.name), shortened)) found.push_back(&model);
         }

@@ -158,6 +158,18 @@ class Cookies(ServeCase):
             self.assertEqual(other.get(PATH, login=False).status, 200)
             other.disconnect()
 
+    def test_context_cookie_names_the_session_of_a_login(self):
+        """Contract 12: a client that returns ABBCX alone and logs on with each request stays in its session."""
+        for client in self.both():
+            cookies = client.get(PATH).cookies()
+            other = self.server.client(client.dialect)
+            other.cookies = {"ABBCX": cookies["ABBCX"]}
+            self.assertEqual(other.get(PATH, login=False).status, 401)
+            response = other.get(PATH)
+            self.assertEqual(response.status, 200)
+            self.assertEqual(response.cookies()["-http-session-"], cookies["-http-session-"])
+            other.disconnect()
+
     def test_cookies_are_not_guessable(self):
         values = [self.client(dialect).get(PATH).cookies()["-http-session-"] for dialect in (1, 1, 2, 2)]
         self.assertEqual(len(set(values)), 4)

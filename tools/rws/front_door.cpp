@@ -10,6 +10,7 @@ namespace rapidc::rws {
 namespace {
 
 constexpr const char* kSessionCookie = "-http-session-";
+constexpr const char* kContextCookie = "ABBCX";
 
 std::optional<Method> methodOf(const std::string& text) {
     if (text == "GET" || text == "HEAD") return Method::Get; // the server leaves out the body
@@ -175,7 +176,10 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
         // Clients of one process may share a connection: one that keeps cookies logs on for itself.
         const std::string proof =
             dialect == Dialect::V1 ? Accounts::digestNonce(authorization) : std::string();
-        if (cookie.empty()) session = sessions_.ofConnection(head.connection, user, proof);
+        const std::string_view context = head.cookie(kContextCookie);
+        if (!context.empty()) session = sessions_.ofContext(context, user, dialect);
+        if (session == nullptr && cookie.empty())
+            session = sessions_.ofConnection(head.connection, user, proof);
         if (session == nullptr) {
             session = sessions_.logOn(dialect, user, head.peer, head.connection, proof);
             if (session == nullptr)
@@ -185,7 +189,7 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
         }
         visit.cookies.emplace_back("Set-Cookie",
                                    fmt::format("{}={}; path=/; httponly", kSessionCookie, session->cookie));
-        visit.cookies.emplace_back("Set-Cookie", fmt::format("ABBCX={}; path=/; httponly", session->abbcx));
+        visit.cookies.emplace_back("Set-Cookie", fmt::format("{}={}; path=/; httponly", kContextCookie, session->abbcx));
     }
     if (!Sessions::countRequest(*session))
         return errorResponse(503, "too many requests within a second", Form::Xhtml,

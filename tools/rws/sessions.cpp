@@ -41,6 +41,12 @@ Sessions::LoggedOn* Sessions::ofConnection(uint64_t connection, std::string_view
     return isSame ? session : nullptr;
 }
 
+Sessions::LoggedOn* Sessions::ofContext(std::string_view abbcx, std::string_view user, Dialect dialect) {
+    for (auto& [number, each] : sessions_)
+        if (each.abbcx == abbcx && each.session->user == user && each.session->dialect == dialect) return &each;
+    return nullptr;
+}
+
 bool Sessions::countRequest(LoggedOn& session) {
     session.used = Clock::now();
     if (session.used - session.second >= std::chrono::seconds(1)) {

@@ -44,6 +44,9 @@ class Sessions {
     /// The session that was logged on over this connection with this proof, for clients without cookies; null when there is
     /// none.
     LoggedOn* ofConnection(uint64_t connection, std::string_view user, std::string_view proof);
+    /// The session of the cookie ABBCX, for clients that return this cookie alone and log on with each request; null when this user has
+    /// none of this dialect.
+    LoggedOn* ofContext(std::string_view abbcx, std::string_view user, Dialect dialect);
     LoggedOn* numbered(uint64_t number);
     /// Counts a request; false: there are too many.
     static bool countRequest(LoggedOn& session);

@@ -138,6 +138,10 @@ TEST_CASE("names are found in the spellings people and controllers use", "[robot
     CHECK(nameFor("IRB 1200-5") == "IRB 1200-5/0.9");
     CHECK(nameFor("IRB 1200/0.7") == "IRB 1200-7/0.7");
     CHECK(nameFor("IRB 5710-90/2.3") == "IRB 5710-90/2.3-LID");
+    CHECK(nameFor("ROB_R_14000_05_05_TYPEA") == "IRB 14000-0.5/0.559-R"); // 0.5 kg, 0.5 m, the right arm
+    CHECK(nameFor("ROB_L_14000_05_05_TYPEA") == "IRB 14000-0.5/0.559-L");
+    CHECK(nameFor("ROB_L_14000_0.5_0.5") == "IRB 14000-0.5/0.559-L");
+    CHECK(nameFor("IRB 14050-0.5/0.5") == "IRB 14050-0.5/0.559");
     CHECK(loadRobotModel("CRB 15000-5/0.95")->kinematics == KinematicsKind::OffsetWrist);
 }
 

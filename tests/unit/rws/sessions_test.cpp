@@ -39,6 +39,11 @@ TEST_CASE("A session belongs to its cookie, its dialect and its connection (serv
     CHECK_FALSE(sessions.ofConnection(7, "Admin", "another")); // another client of the same process
     CHECK_FALSE(sessions.ofConnection(7, "Default User", "nonce"));
     CHECK_FALSE(sessions.ofConnection(8, "Admin", "nonce"));
+    const std::string context = session->abbcx;
+    CHECK(sessions.ofContext(context, "Admin", Dialect::V1) == session);
+    CHECK_FALSE(sessions.ofContext(context, "Default User", Dialect::V1));
+    CHECK_FALSE(sessions.ofContext(context, "Admin", Dialect::V2));
+    CHECK_FALSE(sessions.ofContext("", "Admin", Dialect::V1));
     sessions.connectionEnded(7);
     CHECK_FALSE(sessions.ofConnection(7, "Admin", "nonce"));
     CHECK(sessions.find(cookie, Dialect::V1));
