@@ -24,7 +24,12 @@ const CfgInstance* instanceNamed(const std::vector<const CfgInstance*>& instance
     return found == instances.end() ? nullptr : *found;
 }
 
-robot::Pose baseFrameOf(const CfgInstance& instance) {
+robot::Pose baseFrameOf(const CfgInstance& instance, const robot::Pose& otherwise) {
+    const auto belongs = [](const rapid::config::CfgAttribute& attribute) {
+        return rapid::config::beginsWithName(attribute.name, "base_frame_pos") ||
+               rapid::config::beginsWithName(attribute.name, "base_frame_orient");
+    };
+    if (std::none_of(instance.attributes.begin(), instance.attributes.end(), belongs)) return otherwise;
     robot::Pose base;
     double* const position[] = {&base.pos.x, &base.pos.y, &base.pos.z};
     for (int i = 0; i < 3; ++i) {

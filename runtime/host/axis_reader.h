@@ -14,8 +14,9 @@ namespace rt {
 /// The instance with that name, without regard to case; null when there is none.
 const CfgInstance* instanceNamed(const std::vector<const CfgInstance*>& instances, std::string_view name);
 
-/// base_frame_pos_* (m) and base_frame_orient_u* of a ROBOT or SINGLE, in mm; what is not given is 0 and the identity.
-robot::Pose baseFrameOf(const CfgInstance& instance);
+/// base_frame_pos_* (m) and base_frame_orient_u* of a ROBOT or SINGLE, in mm. An instance with none of them: `otherwise`; with some of
+/// them: 0 and the identity for the others.
+robot::Pose baseFrameOf(const CfgInstance& instance, const robot::Pose& otherwise = {});
 
 /// Types refer to each other by name; what is missing keeps the value of a usual positioner or track.
 class AxisReader {

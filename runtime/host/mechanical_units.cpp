@@ -178,7 +178,8 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         MotionGroup group;
         group.robot = plan.name;
         group.model = *model;
-        if (plan.instance != nullptr) group.model.baseFrame = baseFrameOf(*plan.instance);
+        if (plan.instance != nullptr)
+            group.model.baseFrame = baseFrameOf(*plan.instance, group.model.baseFrame);
         applyBounds(configuration("MOC", "ARM"), groups_.size(), group.model);
         unit->isRobot = unit->isActive = unit->staysActive = true;
         unit->axes = static_cast<int>(group.model.lowerDeg.size());

@@ -164,8 +164,11 @@ class Cookies(ServeCase):
             cookies = client.get(PATH).cookies()
             other = self.server.client(client.dialect)
             other.cookies = {"ABBCX": cookies["ABBCX"]}
-            self.assertEqual(other.get(PATH, login=False).status, 401)
-            response = other.get(PATH)
+            challenge = other.get(PATH, login=False)
+            self.assertEqual(challenge.status, 401)
+            login = (other.digest(challenge.header("www-authenticate"), "GET", PATH)
+                     if client.dialect == 1 else other.basic())
+            response = other.get(PATH, headers={"Authorization": login})
             self.assertEqual(response.status, 200)
             self.assertEqual(response.cookies()["-http-session-"], cookies["-http-session-"])
             other.disconnect()
