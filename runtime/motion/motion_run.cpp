@@ -238,6 +238,7 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
     MotionState state = plannedAt(trajectory, span, moment, time);
     if (state.moving && moment.speed != 0) {
         double rate = 0;
+        state.jointSpeed = Joints::zeros(state.joints.size());
         trajectory.ratesAt(moment.place, state.jointSpeed, rate);
         for (double& speed : state.jointSpeed)
             speed *= moment.speed;

@@ -524,12 +524,9 @@ RoutePoint Trajectory::pointAt(const PathPlace& place) const {
 }
 
 void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const {
-    first = pointAt(place).joints;
+    std::fill(first.begin(), first.end(), 0.0);
     tcpRate = 0;
-    if (isPause(place.run)) {
-        std::fill(first.begin(), first.end(), 0.0);
-        return;
-    }
+    if (isPause(place.run)) return;
     const Route& way = route(place.run);
     constexpr double kStep = 1e-3; // mm
     const double low = std::max(0.0, place.s - kStep);

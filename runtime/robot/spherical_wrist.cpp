@@ -156,16 +156,23 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
 
 bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                      Joints& out) const {
-    const int own = configuration(seed).cfx;
-    // Another branch turns axis 1 or 4 by about half a revolution: a near solution on the own one is the nearest.
+    // Another branch turns axis 1 or 4 by about half a revolution: a near solution is the nearest. Most arms reach forward,
+    // and that they do is quicker to try than to compute.
     constexpr double kNear = 20; // deg
     SphericalTarget target;
     Joints same = seed;
-    if (takeApart(flange, seed, target) && solveBranch(target, own, seed[3], seed[5], same) &&
-        turnTowards(seed, same) < kNear) {
+    const bool isWhole = takeApart(flange, seed, target);
+    const auto isNear = [&](int cfx) {
+        if (!isWhole || !solveBranch(target, cfx, seed[3], seed[5], same) || turnTowards(seed, same) >= kNear)
+            return false;
         out = same;
         return true;
-    }
+    };
+    const double elbowDeg = modelAngle(seed, 2) + plane_.angleDeg;
+    const double within = elbowDeg - 360 * std::round(elbowDeg / 360);
+    if (isNear((within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0))) return true;
+    const int own = configuration(seed).cfx;
+    if (isNear(own)) return true;
     IkBranches branches;
     inverseAll(flange, seed, armAngleDeg, branches);
     // The elbow cannot change along a path, for that takes the stretched arm; shoulder and wrist can be
