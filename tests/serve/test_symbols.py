@@ -291,12 +291,12 @@ class Events(RapidCase):
             event = socket.event()
             self.assertEqual((event.type, event.values["value"]), (first.type, "99"))
 
-    def test_a_watch_survives_a_restart(self):
-        """The value of a persistent stays over a warm restart, and so does its subscription."""
+    def test_a_watch_survives_another_program(self):
+        """Decision 97: another text of a compiled module makes another controller; the sessions and their subscriptions stay."""
         client, writer = self.client(1), self.client(1)
         socket = self.socket(client, client.subscribe((self.resource(client, "T_ROB1/M/word"), 2)))
-        self.assertIn(writer.post("/rw/panel?action=restart", {"restart-mode": "restart"}).status, (200, 202, 204))
-        self.eventually(lambda: self.reader().get("/rw/panel/ctrlstate").status == 200, seconds=10)
+        form = {"task": "T_ROB1", "text": MODULE + "\n"}
+        self.assertEqual(writer.post("/rw/rapid/modules/M?task=T_ROB1&action=set-module-text", form).status, 204)
         self.assertEqual(writer.post(data(1, "T_ROB1/M/word") + "?action=set", {"value": '"new"'}).status, 204)
         self.assertEqual(socket.event().values["value"], '"new"')
 

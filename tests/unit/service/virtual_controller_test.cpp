@@ -188,6 +188,22 @@ TEST_CASE("a restart keeps persistents; a cold one begins again", "[service]") {
     CHECK(served.value("count") == "0");
 }
 
+TEST_CASE("commands that come during a restart are executed in their order", "[service]") {
+    Served served(kCounter);
+    std::vector<int> order;
+    served.ask([&](VirtualController& c) {
+        Observer observer;
+        observer.changed = [&](Change change, const rt::Task*) {
+            if (change == Change::Restart) c.post([&] { order.push_back(1); });
+            if (change == Change::Generation) c.post([&] { order.push_back(2); });
+        };
+        c.observers().add(std::move(observer));
+        return c.restart(RestartMode::Warm);
+    });
+    CHECK(served.comes([&](VirtualController&) { return order.size() == 2; }));
+    CHECK(order == std::vector<int>{1, 2});
+}
+
 TEST_CASE("modules come and go; one with mistakes changes nothing", "[service]") {
     Served served(kCounter);
     const std::string good = served.file("Part.modx", "MODULE Part\n  PERS num fromPart := 7;\nENDMODULE\n");
