@@ -24,6 +24,8 @@ MODULE = """MODULE M
   VAR num grid{2,3} := [[1,2,3],[4,5,6]];
   VAR outer both := [[1,"x"],[1,2,3]];
   VAR count many := 7;
+  VAR byte code := 65;
+  VAR byte codes{2} := [1,2];
   PERS robtarget target := [[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];
   VAR signaldo signal;
   PROC main()
@@ -89,7 +91,7 @@ class Values(RapidCase):
                 self.assertEqual((response.status, response.code()), (400, code), symbol)
 
     def values_of_all(self):
-        return [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit")]
+        return [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit", "code", "codes")]
 
     def test_writing(self):
         """35: what is wrong changes nothing: 400 or 403."""
@@ -105,7 +107,8 @@ class Values(RapidCase):
                     ("flag", "false", "FALSE"), ("flag", "TRUE", "TRUE"), ("list{2}", "20", "20"),
                     ("list", "[1,2,3,4]", "[1,2,3,4]"), ("grid", "[[6,5,4],[3,2,1]]", "[[6,5,4],[3,2,1]]"),
                     ("grid{1}", "[1,2,3]", "[1,2,3]"), ("both", '[[2,"[,]"],[9E9,0,0]]', '[[2,"[,]"],[9E+09,0,0]]'),
-                    ("both.first.a", "3", "3"), ("large", "1234567890123", "1234567890123"), ("many", "8", "8")):
+                    ("both.first.a", "3", "3"), ("large", "1234567890123", "1234567890123"), ("many", "8", "8"),
+                    ("code", "255", "255"), ("code", "0", "0"), ("codes", "[0,255]", "[0,255]")):
                 with self.subTest(symbol=symbol, value=value):
                     self.assertEqual(write(symbol, value), 204)
                     self.assertEqual(self.value(quoted(path + symbol)), shown)
@@ -114,7 +117,8 @@ class Values(RapidCase):
                     ("word", '"' + "x" * 81 + '"'), ("word", "text"), ("word", '"a'), ("word", "5"), ("number", '"5"'), ("number", "TRUE"),
                     ("number", ""), ("number", "1E39"), ("number", "5 6"), ("number", "nan"), ("flag", "1"), ("flag", "maybe"),
                     ("list", "[1,2,3,4,5]"), ("list", "[1,2,3]"), ("list", "5"), ("list{5}", "1"), ("grid", "[[1,2,3],[4,5]]"),
-                    ("both", "[1,2]"), ("both.first", '[1,"x",2]'), ("limit", "4"), ("main", "1"), ("signal", "1")):
+                    ("both", "[1,2]"), ("both.first", '[1,"x",2]'), ("limit", "4"), ("main", "1"), ("signal", "1"),
+                    ("code", "256"), ("code", "-1"), ("code", "1.5"), ("codes", "[1,256]"), ("codes{2}", "300")):
                 with self.subTest(symbol=symbol, value=value):
                     self.assertIn(write(symbol, value), (400, 403))
                     self.assertEqual(self.values_of_all(), before)
@@ -237,7 +241,7 @@ class Search(RapidCase):
         """2.3: view=scope sees what the block sees; skipshared leaves out what all tasks share."""
         client = self.client(2)
         form = {"view": "scope", "blockurl": "RAPID/T_ROB1/N", "symtyp": "var", "skipshared": "TRUE"}
-        self.assertEqual(sorted(self.names(client, form)), ["both", "grid", "many", "own", "signal"])
+        self.assertEqual(sorted(self.names(client, form)), ["both", "code", "codes", "grid", "many", "own", "signal"])
         self.assertIn("reg1", self.names(client, {**form, "skipshared": "FALSE"}))
 
     def test_pages(self):
