@@ -80,9 +80,20 @@ class Completer {
         list_.items.erase(end, list_.items.end());
         list_.incomplete = true;
     }
-    /// Whether an item with this text to sort by would be dropped: enough others come before it.
-    bool isBeyond(std::string_view sortText) const {
-        return !firstDropped_.empty() && sortText > firstDropped_;
+    /// Whether an item with these ranks and seriesKey() of the name to sort by would be dropped: enough others come before it. Most names
+    /// differ in their first letters: no text is made for them.
+    bool isBeyond(char rank, char secondRank, const std::string& name) const {
+        if (firstDropped_.size() < 2) return false;
+        if (rank != firstDropped_[0]) return rank > firstDropped_[0];
+        if (secondRank != firstDropped_[1]) return secondRank > firstDropped_[1];
+        const std::string_view key = std::string_view(firstDropped_).substr(2);
+        const size_t letters = name.find_last_not_of("0123456789") + 1; // before the number at the end
+        const size_t common = std::min(letters, key.size());
+        if (const int order =
+                config::compareNames(std::string_view(name).substr(0, common), key.substr(0, common));
+            order != 0)
+            return order > 0;
+        return seriesKey(name) > key;
     }
     bool isBeyond(char rank, std::string_view name) const {
         if (firstDropped_.empty() || rank != firstDropped_.front())
@@ -117,7 +128,7 @@ class Completer {
 
     CompletionItem& append(std::string label, ItemKind kind, char rank, std::string insertText) {
         // In large programs nearly all items are dropped: early, so that they need no room.
-        if (list_.items.size() / 4 > options_.limit) keepBest();
+        if (list_.items.size() / 2 > options_.limit) keepBest();
         CompletionItem& item = list_.items.emplace_back();
         item.label = std::move(label);
         item.kind = kind;
@@ -240,15 +251,14 @@ class Completer {
         const std::vector<Cursor> wanted = alternatives();
         std::vector<FitRules> rules(wanted.begin(), wanted.end());
         const bool callFollows = nextCharacter() == '(';
-        for (const Symbol* symbol : scope_.visible(cancel_, cursor_.prefix)) {
-            if (isCancelled(cancel_)) return;
-            if (symbol->kind == SymbolKind::Type || !matches(symbol->name)) continue;
+        scope_.forEachVisible(cancel_, cursor_.prefix, [&](const Symbol& symbol) {
+            if (symbol.kind == SymbolKind::Type) return;
             Fit fit = Fit::Misfit;
             for (const FitRules& one : rules)
-                fit = std::min(fit, one.of(*symbol));
-            if (fit == Fit::Misfit) continue;
-            addValue(*symbol, fit, callFollows);
-        }
+                fit = std::min(fit, one.of(symbol));
+            if (fit != Fit::Misfit) addValue(symbol, fit, callFollows);
+        });
+        if (isCancelled(cancel_)) return;
         if (cursor_.mode == ParamMode::In && cursor_.expect == Expect::Expression) constants();
         if (options_.newData) newPoint();
     }
@@ -275,10 +285,10 @@ class Completer {
             rank = symbol.predefined ? kRare : kLoose;
         CompletionItem* item = nullptr;
         if (typed && fit == Fit::Exact) {
-            std::string sortText = rank + std::string(1, rankOf(symbol)) + seriesKey(symbol.name);
-            if (isBeyond(sortText)) return;
+            const char secondRank = rankOf(symbol);
+            if (isBeyond(rank, secondRank, symbol.name)) return;
             item = &addItem(symbol, rank, true);
-            item->sortText = std::move(sortText);
+            item->sortText = std::string{rank, secondRank} + seriesKey(symbol.name);
         } else {
             item = add(symbol, rank, fit != Fit::Reach);
         }

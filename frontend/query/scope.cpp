@@ -108,41 +108,49 @@ const LabelSymbol* Scope::findLabel(std::string_view name) const {
 
 std::vector<const Symbol*> Scope::visible(const Cancel* cancel, std::string_view letters) const {
     std::vector<const Symbol*> found;
+    forEachVisible(cancel, letters, [&](const Symbol& symbol) { found.push_back(&symbol); });
+    return found;
+}
+
+void Scope::forEachVisible(const Cancel* cancel, std::string_view letters,
+                           const std::function<void(const Symbol&)>& use) const {
     std::unordered_set<std::string> hidden;
     const NameTable* globals = nullptr; ///< once they are among the names found
     const auto add = [&](const Symbol& symbol) {
         if (symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
         std::string folded = foldName(symbol.name);
         if (globals && globals->contains(folded)) return false;
-        if (hidden.insert(std::move(folded)).second) found.push_back(&symbol);
+        if (hidden.insert(std::move(folded)).second) use(symbol);
         return false;
     };
     inRoutine(add);
     if (around_.module) inModule(*around_.module, add);
-    if (isCancelled(cancel)) return found;
+    if (isCancelled(cancel)) return;
     globals = file_.task ? &snapshot_.globals(*file_.task) : nullptr;
     if (file_.task) {
         // The table has each name once; names of them all, or a set of them, would cost more than the rest of the answer.
         const bool areUnique = snapshot_.hasUniqueGlobals(*file_.task);
         std::unordered_set<const Symbol*> hiddenGlobals;
         for (const std::string& name : hidden)
-            if (const Symbol* global = findIn(*globals, name)) hiddenGlobals.insert(global);
+            if (const Symbol* global = findIn(*globals, name); global && global->module != around_.module)
+                hiddenGlobals.insert(global);
+        const bool hidesGlobals = !hiddenGlobals.empty();
         for (const Module* module : file_.task->modules) {
-            if (isCancelled(cancel)) return found;
+            if (isCancelled(cancel)) return;
+            if (module == around_.module) continue; // all of it has been found above
             inModule(*module, [&](const Symbol& symbol) {
                 if (symbol.isLocal || symbol.name.empty() || !fuzzyMatch(letters, symbol.name)) return false;
                 const bool isGlobal = areUnique || findIn(*globals, foldName(symbol.name)) == &symbol;
-                if (isGlobal && !hiddenGlobals.contains(&symbol)) found.push_back(&symbol);
+                if (isGlobal && !(hidesGlobals && hiddenGlobals.contains(&symbol))) use(symbol);
                 return false;
             });
         }
         for (const auto& [name, symbol] : snapshot_.configured())
             if (!symbol->assumed || !symbol->module || snapshot_.fileOf(*symbol->module)) add(*symbol);
     }
-    if (isCancelled(cancel)) return found;
+    if (isCancelled(cancel)) return;
     for (const Module* module : snapshot_.program().predefinedModules)
         inModule(*module, add);
-    return found;
 }
 
 const Type* typeNamed(const Scope& scope, std::string_view name) {

@@ -3,6 +3,8 @@
 
 #include "frontend/query/position.h"
 
+#include <functional>
+
 namespace rapid::query {
 
 class Scope {
@@ -18,6 +20,9 @@ class Scope {
     /// With `letters` only names that they match (fuzzy.h). Labels are not among them.
     std::vector<const sema::Symbol*> visible(const Cancel* cancel = nullptr,
                                              std::string_view letters = {}) const;
+    /// The same without a list, which costs much in large programs. `use` must not declare names.
+    void forEachVisible(const Cancel* cancel, std::string_view letters,
+                        const std::function<void(const sema::Symbol&)>& use) const;
     std::vector<const sema::LabelSymbol*> labels() const;
 
     const Surroundings& around() const { return around_; }

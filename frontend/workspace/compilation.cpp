@@ -95,7 +95,8 @@ std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment&
     addConveyors(*compilation, environment, inputs.conveyors);
     for (const std::string& camera : inputs.cameras)
         options.signals.push_back({camera.substr(0, camera.find('=')), "cameradev"});
-    if (input.isBackup) checkRobot(*compilation, environment, input.robot);
+    if (input.isBackup) configureRobot(*compilation, input.robot);
+    if (input.isBackup && !inputs.requireMain) checkRobot(*compilation, environment, input.robot);
     compilation->library = environment.library(inputs.documented);
     options.library = compilation->library;
     compilation->tasks = std::move(input.tasks);

@@ -23,7 +23,8 @@ struct Inputs {
     std::vector<std::string> conveyors;   ///< --conveyor, UNIT=KEY:VALUE,...
     std::vector<std::string> cameras;     ///< --camera, NAME=FILE
     std::string home;                     ///< --home; "" when none was chosen
-    bool requireMain = false;
+    bool requireMain =
+        false; ///< the program is executed: NORMAL tasks need main, and the controller reports robots without model
     std::vector<std::string> warnings; ///< -W
     bool lint = false;                 ///< with the warnings of 8xxx, even where -W does not name them
     bool onlyDiagnostics = false;      ///< nothing is lowered: the inside of routines need not be kept

@@ -150,13 +150,15 @@ void configureTasks(Compilation& compilation, const std::set<std::string>& types
     }
 }
 
+void configureRobot(Compilation& compilation, const std::string& option) {
+    if (option.empty()) return;
+    compilation.configNames.emplace_back("backinfo.txt");
+    compilation.configTexts.push_back(fmt::format(
+        "MOC:CFG_1.0:7:0::\n#\nROBOT:\n\n      -name \"ROB_1\" -use_robot_type \"{}\"\n", option));
+}
+
 void checkRobot(Compilation& compilation, const Environment& environment, const std::string& option) {
     std::string robot = option;
-    if (!option.empty()) {
-        compilation.configNames.emplace_back("backinfo.txt");
-        compilation.configTexts.push_back(fmt::format(
-            "MOC:CFG_1.0:7:0::\n#\nROBOT:\n\n      -name \"ROB_1\" -use_robot_type \"{}\"\n", option));
-    }
     for (size_t i = 0; i < compilation.configTexts.size() && robot.empty(); ++i) {
         std::vector<CfgProblem> ignored;
         const CfgFile cfg = config::parseCfg(compilation.configTexts[i], compilation.configNames[i], ignored);

@@ -27,6 +27,10 @@ void readTaskSettings(Compilation& compilation);
 void configureTasks(Compilation& compilation, const std::set<std::string>& typesGiven, bool isBackup);
 
 /// The robot of a backup: that of MOC.cfg, else the one among its options, which becomes part of the configuration.
+void configureRobot(Compilation& compilation, const std::string& option);
+
+/// Reports a robot of a backup that has no model. For inputs that are not executed: the controller of a run reports it, with what takes
+/// its place.
 void checkRobot(Compilation& compilation, const Environment& environment, const std::string& option);
 
 /// All values in the configuration files, in lower case: event routines, service routines, interrupts by system signals.

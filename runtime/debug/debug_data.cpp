@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -181,6 +182,34 @@ DebugVariable partOf(const DebugVariable& variable, std::string_view path, std::
     return error.empty() ? part : DebugVariable{};
 }
 
+std::string rangeProblem(const void* data, const TypeDesc& type) {
+    const auto* bytes = static_cast<const char*>(data);
+    std::string problem;
+    if (type.kind == DescKind::Num && sameName(type.name, "byte")) {
+        float number = 0;
+        std::memcpy(&number, bytes, sizeof number);
+        if (!(number >= 0 && number <= 255 && std::trunc(number) == number))
+            problem = fmt::format("{} is not a byte: give a whole number from 0 to 255", formatNum(number));
+    } else if (type.kind == DescKind::Record) {
+        for (uint32_t i = 0; i < type.count && problem.empty(); ++i)
+            problem = rangeProblem(bytes + type.offsets[i], *type.fields[i]);
+    } else if (type.kind == DescKind::Array) {
+        for (uint32_t i = 0; i < type.count && problem.empty(); ++i)
+            problem = rangeProblem(bytes + std::size_t{i} * type.fields[0]->size, *type.fields[0]);
+    }
+    return problem;
+}
+
+std::string writeText(std::string_view text, void* data, const TypeDesc& type, const std::string& shownType) {
+    const auto* const before = static_cast<const char*>(data);
+    std::vector<char> value(before, before + type.size);
+    if (!textToValue(text, value.data(), type))
+        return fmt::format("'{}' is not a value of type {}", text, shownType);
+    std::string problem = rangeProblem(value.data(), type);
+    if (problem.empty()) std::memcpy(data, value.data(), value.size());
+    return problem;
+}
+
 std::string assignText(const DebugVariable& variable, std::string_view text) {
     if (variable.data == nullptr) return fmt::format("parameter '{}' is not present", variable.name);
     if (variable.isConstant) return fmt::format("'{}' is a constant", variable.name);
@@ -188,9 +217,7 @@ std::string assignText(const DebugVariable& variable, std::string_view text) {
         return fmt::format("'{}' is an array: change its elements one by one", variable.name);
     if (hasNoText(*variable.type))
         return fmt::format("data of type {} cannot be assigned", typeName(variable));
-    if (!textToValue(text, variable.data, *variable.type))
-        return fmt::format("'{}' is not a value of type {}", text, typeName(variable));
-    return "";
+    return writeText(text, variable.data, *variable.type, typeName(variable));
 }
 
 } // namespace rt

@@ -30,7 +30,12 @@ std::string typeName(const DebugVariable& variable);
 std::string valueText(const DebugVariable& variable, uint32_t maxElements = 64);
 /// The part `path` ("{2}.trans.x", "" = the whole) of an object. Null data and a message in `error` when there is none.
 DebugVariable partOf(const DebugVariable& variable, std::string_view path, std::string& error);
-/// Writes a value given as RAPID text. "" or what is wrong; then nothing has changed.
+/// "" or why a person or client may not give data this value: a byte among it is not a whole number from 0 to 255. A program may
+/// compute such values, so reading a text takes them.
+std::string rangeProblem(const void* data, const TypeDesc& type);
+/// Writes a value given as RAPID text into data of a type, which people know as `shownType`. "" or what is wrong; then nothing has changed.
+std::string writeText(std::string_view text, void* data, const TypeDesc& type, const std::string& shownType);
+/// The same for a variable that may be changed; arrays only element by element.
 std::string assignText(const DebugVariable& variable, std::string_view text);
 
 } // namespace rt

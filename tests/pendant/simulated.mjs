@@ -150,6 +150,18 @@ export const simulatedSteps = {
         assert.ok(starts.length >= 4, `${starts.length} repetitions in 0.7 s`);
         assert.deepEqual(starts[0].params.values.map(Math.sign), [1, 0, 0, 0, 0, 0]);
         await eventually(() => last(server, "jog.stop") !== undefined, "jog.stop");
+        // and when the pointer leaves the button, or the window loses the focus
+        const stops = () => server.cell.requests.filter(({ method }) => method === "jog.stop").length;
+        for (const leave of [() => page.mouse.move(1, 1), () => page.evaluate(() => window.dispatchEvent(new Event("blur")))]) {
+            const before = stops();
+            await key.hover();
+            await page.mouse.down();
+            await page.waitForSelector(".jog-key.held");
+            await leave();
+            await page.waitForSelector(".jog-key.held", { state: "detached" });
+            await eventually(() => stops() > before, "jog.stop");
+            await page.mouse.up();
+        }
         await page.click(".segment:has-text('0.1')");
         await key.focus();
         await page.keyboard.press("Enter");

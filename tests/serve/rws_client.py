@@ -201,6 +201,9 @@ class RwsClient:
             headers.pop("Cookie", None)
             headers["Authorization"] = self.digest(response.header("www-authenticate"), method, path)
             response = self.send(method, path, body, headers)
+        elif response.status == 401 and login and "Authorization" not in headers:  # its session has ended
+            headers.pop("Cookie", None)
+            response = self.send(method, path, body, {**headers, "Authorization": self.basic()})
         self.cookies.update(response.cookies())
         return response
 

@@ -269,7 +269,8 @@ class RestartThatFails(ServeCase):
             entries = self.client(1).get("/rw/elog/0?lang=en").entries("elog-message-li")
             return next((entry.values["desc"] for entry in entries if entry.values["code"] == "10921"), "")
         self.eventually(lambda: "doOld" in reason(), 10)
-        self.assertEqual(client.get("/rw/iosystem/signals/doOld").values()["lvalue"], "1")
+        # Decision 132: sessions stay when the restart is refused.
+        self.assertEqual(client.get("/rw/iosystem/signals/doOld", login=False).values()["lvalue"], "1")
 
 
 if __name__ == "__main__":

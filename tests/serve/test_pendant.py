@@ -90,6 +90,16 @@ class PendantCase(ServeCase):
         self.assertEqual(caught.exception.code, code, str(caught.exception))
         return caught.exception
 
+    def restart(self, method, **params):
+        """A request that restarts the controller: it is answered, then all sockets end (decision 132), and the page connects again."""
+        others = [self.page, self.connect()]
+        self.page.call(method, **params)
+        for page in others:
+            while page.take() is not None:
+                pass
+            self.assertEqual(page.socket.close_code, 1012)
+        self.page = self.connect()
+
     def value(self, name):
         return self.page.call("data.read", paths=[f"T_ROB1/MainModule/{name}"])["values"][0]["value"]
 
@@ -408,8 +418,7 @@ class Execution(PendantCase):
     def test_restart(self):
         self.page.call("data.write", path="T_ROB1/MainModule/count", value="41")
         self.page.call("breakpoints.set", {**MAIN, "line": line_of("helper count")})
-        self.page.call("restart", mode="warm")
-        self.page.wait("generation")
+        self.restart("restart", mode="warm")
         self.assertEqual(self.value("count"), "41")
         self.assertTrue(self.page.call("breakpoints.list")["breakpoints"][0]["verified"])
 
@@ -469,8 +478,8 @@ class Programs(PendantCase):
         for name in ("../x", "", "a/b", ".hidden"):
             self.refused("bad_request", "backup.create", name=name)
         self.refused("not_found", "backup.restore", name="nothing")
-        self.page.call("backup.restore", name="b1")
-        self.page.wait("generation")
+        self.restart("backup.restore", name="b1")
+        self.assertEqual(self.page.call("state")["tasks"][0]["name"], "T_ROB1")
 
     def test_running_program_is_not_changed(self):
         self.page.call("run.start")
@@ -514,9 +523,9 @@ class Signals(PendantCase):
         self.page.call("signals.set", name="goStep", value=0)
         self.assertEqual(self.page.gather("signal", 0.3), [])
 
-    def test_subscription_stays_after_a_restart(self):
+    def test_subscription_stays_with_another_program(self):
         self.page.call("signals.subscribe", names=["goStep"])
-        self.page.call("restart", mode="warm")
+        self.page.call("modules.setText", MAIN, text=MODULE + "\n")
         self.page.wait("generation")
         self.page.call("signals.set", name="goStep", value=9)
         self.page.wait("signal", lambda data: ["goStep", 9, 0] in [change[:3] for change in data])

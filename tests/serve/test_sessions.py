@@ -3,6 +3,7 @@
 import re
 import threading
 import time
+from urllib.parse import urlsplit
 
 from serve_testing import ServeCase, main
 
@@ -206,6 +207,57 @@ class Cookies(ServeCase):
         client.get("/logout")
         client.cookies = {}
         self.eventually(lambda: other.post("/rw/mastership/edit/request").status == 204)
+
+
+class Restart(ServeCase):
+    """Decision 132: a restart of the controller ends sessions, masterships, privileges, subscriptions and event sockets."""
+
+    def restart(self, client):
+        path = "/rw/panel?action=restart" if client.dialect == 1 else "/ctrl/restart"
+        self.assertEqual(client.post(path, {"restart-mode": "restart"}).status, 204)
+
+    def test_old_cookies_log_on_again(self):
+        for dialect in (1, 2):
+            clients = [self.client(dialect), *self.both()]
+            for client in clients:
+                self.assertEqual(client.get(PATH).status, 200)
+            before = [dict(client.cookies) for client in clients]
+            self.restart(clients[0])
+            for client, cookies in zip(clients, before):
+                self.assertEqual(client.get(PATH, login=False).status, 401)
+                self.assertEqual(client.get(PATH).status, 200)
+                self.assertNotEqual(client.cookies["-http-session-"], cookies["-http-session-"])
+                self.assertEqual(client.get(PATH, login=False).status, 200, "the new session counts")
+
+    def test_masterships_end(self):
+        old, new, other = self.client(1), self.client(2), self.client(2)
+        self.assertEqual(old.post("/rw/mastership/rapid?action=request").status, 204)
+        self.assertEqual(new.post("/rw/mastership/motion/request-with-id").status, 200)
+        self.restart(other)
+        for name in ("edit", "motion"):
+            self.assertEqual(other.get(f"/rw/mastership/{name}").values("msh-resource")["mastership"], "nomaster")
+            self.assertEqual(other.post(f"/rw/mastership/{name}/request").status, 204)
+            self.assertEqual(other.post(f"/rw/mastership/{name}/release").status, 204)
+
+    def test_the_privilege_to_modify_ends(self):
+        client = self.client(2)
+        self.assertEqual(client.post("/users/rmmp", {"privilege": "modify"}).status, 202)
+        self.assertEqual(client.get("/users/rmmp").values()["privilege"], "modify")
+        self.restart(self.client(1))
+        self.assertEqual(client.get("/users/rmmp").values()["privilege"], "none")
+        users = client.get("/users").entries("user-li")
+        self.assertEqual(len(users), 1, "the session of this client alone")
+
+    def test_subscriptions_end(self):
+        for client in self.both():
+            response = client.subscribe(PATH)
+            socket = self.socket(client, response)
+            self.assertEqual(socket.status, 101)
+            self.restart(self.client(2))
+            while socket.text(5) is not None:  # events of the time before
+                pass
+            self.assertIn(socket.close_code, (1000, 1001, 1012))
+            self.assertEqual(client.delete(urlsplit(response.header("location")).path).status, 404)
 
 
 class Limits(ServeCase):

@@ -24,6 +24,8 @@ MODULE = """MODULE M
   VAR num grid{2,3} := [[1,2,3],[4,5,6]];
   VAR outer both := [[1,"x"],[1,2,3]];
   VAR count many := 7;
+  VAR byte code := 65;
+  VAR byte codes{2} := [1,2];
   PERS robtarget target := [[600,0,500],[1,0,0,0],[0,0,0,0],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];
   VAR signaldo signal;
   PROC main()
@@ -89,7 +91,7 @@ class Values(RapidCase):
                 self.assertEqual((response.status, response.code()), (400, code), symbol)
 
     def values_of_all(self):
-        return [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit")]
+        return [self.value("T_ROB1/M/" + name) for name in ("word", "number", "flag", "list", "grid", "both", "limit", "code", "codes")]
 
     def test_writing(self):
         """35: what is wrong changes nothing: 400 or 403."""
@@ -105,7 +107,8 @@ class Values(RapidCase):
                     ("flag", "false", "FALSE"), ("flag", "TRUE", "TRUE"), ("list{2}", "20", "20"),
                     ("list", "[1,2,3,4]", "[1,2,3,4]"), ("grid", "[[6,5,4],[3,2,1]]", "[[6,5,4],[3,2,1]]"),
                     ("grid{1}", "[1,2,3]", "[1,2,3]"), ("both", '[[2,"[,]"],[9E9,0,0]]', '[[2,"[,]"],[9E+09,0,0]]'),
-                    ("both.first.a", "3", "3"), ("large", "1234567890123", "1234567890123"), ("many", "8", "8")):
+                    ("both.first.a", "3", "3"), ("large", "1234567890123", "1234567890123"), ("many", "8", "8"),
+                    ("code", "255", "255"), ("code", "0", "0"), ("codes", "[0,255]", "[0,255]")):
                 with self.subTest(symbol=symbol, value=value):
                     self.assertEqual(write(symbol, value), 204)
                     self.assertEqual(self.value(quoted(path + symbol)), shown)
@@ -114,7 +117,8 @@ class Values(RapidCase):
                     ("word", '"' + "x" * 81 + '"'), ("word", "text"), ("word", '"a'), ("word", "5"), ("number", '"5"'), ("number", "TRUE"),
                     ("number", ""), ("number", "1E39"), ("number", "5 6"), ("number", "nan"), ("flag", "1"), ("flag", "maybe"),
                     ("list", "[1,2,3,4,5]"), ("list", "[1,2,3]"), ("list", "5"), ("list{5}", "1"), ("grid", "[[1,2,3],[4,5]]"),
-                    ("both", "[1,2]"), ("both.first", '[1,"x",2]'), ("limit", "4"), ("main", "1"), ("signal", "1")):
+                    ("both", "[1,2]"), ("both.first", '[1,"x",2]'), ("limit", "4"), ("main", "1"), ("signal", "1"),
+                    ("code", "256"), ("code", "-1"), ("code", "1.5"), ("codes", "[1,256]"), ("codes{2}", "300")):
                 with self.subTest(symbol=symbol, value=value):
                     self.assertIn(write(symbol, value), (400, 403))
                     self.assertEqual(self.values_of_all(), before)
@@ -237,7 +241,7 @@ class Search(RapidCase):
         """2.3: view=scope sees what the block sees; skipshared leaves out what all tasks share."""
         client = self.client(2)
         form = {"view": "scope", "blockurl": "RAPID/T_ROB1/N", "symtyp": "var", "skipshared": "TRUE"}
-        self.assertEqual(sorted(self.names(client, form)), ["both", "grid", "many", "own", "signal"])
+        self.assertEqual(sorted(self.names(client, form)), ["both", "code", "codes", "grid", "many", "own", "signal"])
         self.assertIn("reg1", self.names(client, {**form, "skipshared": "FALSE"}))
 
     def test_pages(self):
@@ -291,12 +295,12 @@ class Events(RapidCase):
             event = socket.event()
             self.assertEqual((event.type, event.values["value"]), (first.type, "99"))
 
-    def test_a_watch_survives_a_restart(self):
-        """The value of a persistent stays over a warm restart, and so does its subscription."""
+    def test_a_watch_survives_another_program(self):
+        """Decision 97: another text of a compiled module makes another controller; the sessions and their subscriptions stay."""
         client, writer = self.client(1), self.client(1)
         socket = self.socket(client, client.subscribe((self.resource(client, "T_ROB1/M/word"), 2)))
-        self.assertIn(writer.post("/rw/panel?action=restart", {"restart-mode": "restart"}).status, (200, 202, 204))
-        self.eventually(lambda: self.reader().get("/rw/panel/ctrlstate").status == 200, seconds=10)
+        form = {"task": "T_ROB1", "text": MODULE + "\n"}
+        self.assertEqual(writer.post("/rw/rapid/modules/M?task=T_ROB1&action=set-module-text", form).status, 204)
         self.assertEqual(writer.post(data(1, "T_ROB1/M/word") + "?action=set", {"value": '"new"'}).status, 204)
         self.assertEqual(socket.event().values["value"], '"new"')
 

@@ -16,6 +16,7 @@ enum class CloseCode : uint16_t {
     ProtocolError = 1002,
     PolicyViolation = 1008,
     TooBig = 1009,
+    ServiceRestart = 1012,
 };
 
 /// The end of a socket with which a service sends; may be kept and called from every thread, even after the socket has ended.

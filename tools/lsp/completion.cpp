@@ -54,7 +54,8 @@ Json itemJson(const State& state, const Target& target, const Json& range, const
     if (style.adjusts && text.find('\n') != std::string::npos) out["insertTextMode"] = 2;
     if (!item.detail.empty()) out["detail"] = item.detail;
     if (!item.sortText.empty()) out["sortText"] = item.sortText;
-    if (!item.filterText.empty()) out["filterText"] = item.filterText;
+    if (!item.filterText.empty() && item.filterText != item.label) // the label counts otherwise
+        out["filterText"] = item.filterText;
     if (!item.edits.empty()) out["additionalTextEdits"] = state.edits(*target.positions, item.edits);
     if (!item.key.empty()) out["data"] = {{"path", target.path}, {"key", item.key}};
     return out;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -41,7 +42,13 @@ Hub::Hub(const Shared& shared) : controller_(shared.controller) {
     methods_.add("state", [this](Client&, const Json&) { return state(); });
     service::Observer observer;
     observer.changed = [this](service::Change change, const rt::Task*) {
-        if (change == service::Change::Generation) broadcast("generation", Json::object());
+        if (change == service::Change::Restart) isRestarting_ = true;
+        if (change != service::Change::Generation) return;
+        if (isRestarting_)
+            endAll();
+        else
+            broadcast("generation", Json::object());
+        isRestarting_ = false;
     };
     observer_ = controller_.observers().add(std::move(observer));
 }
@@ -60,7 +67,16 @@ void Hub::remove(const std::shared_ptr<Client>& client) {
         area->forget(*client);
 }
 
+/// As a restart does. The page connects again by itself.
+void Hub::endAll() {
+    for (const auto& client : std::vector(clients_)) {
+        client->close(http::CloseCode::ServiceRestart, "the controller restarts");
+        remove(client);
+    }
+}
+
 void Hub::handle(const std::shared_ptr<Client>& client, const std::shared_ptr<const Json>& request) {
+    if (std::find(clients_.begin(), clients_.end(), client) == clients_.end()) return client->endRequest();
     const Json& id = request->at("id");
     const MethodTable::Entry* entry = nullptr;
     const bool isKnown = answering(*client, id, [&] {

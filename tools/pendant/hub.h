@@ -51,6 +51,7 @@ class Hub {
     Json state();
     const MethodTable::Entry& methodFor(const Client& client, const std::string& name) const;
     void flush();
+    void endAll();
 
     service::VirtualController& controller_;
     std::vector<std::shared_ptr<Client>> clients_;
@@ -59,6 +60,7 @@ class Hub {
     rws::Workers workers_; ///< after what they use
     std::function<std::string(const Client&, const std::string&)> checkPassword_;
     service::Observers::Token observer_ = 0;
+    bool isRestarting_ = false; ///< the next generation comes from a restart
     std::atomic<bool> isDirty_{false};
 };
 

@@ -88,6 +88,10 @@ void FrontDoor::countSockets(uint64_t session, int change) {
     found->used = Sessions::Clock::now();
 }
 
+void FrontDoor::endSessions() {
+    settings_.postToNetwork([this, restarts = ++restarts_] { sessions_.endBefore(restarts); });
+}
+
 // ---- Before the body -----------------------------------------------------------------------------------------------
 
 http::Decision FrontDoor::decide(Dialect dialect, const http::Head& head) {
@@ -158,6 +162,7 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
 
 std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head& head, Visit& visit) {
     const std::string cookie(head.cookie(kSessionCookie));
+    sessions_.endBefore(restarts_);
     Sessions::LoggedOn* session = sessions_.find(cookie, dialect);
     if (session == nullptr) {
         if (head.asksForSocket()) {
@@ -181,7 +186,7 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
         if (session == nullptr && cookie.empty())
             session = sessions_.ofConnection(head.connection, user, proof);
         if (session == nullptr) {
-            session = sessions_.logOn(dialect, user, head.peer, head.connection, proof);
+            session = sessions_.logOn(dialect, user, head.peer, head.connection, proof, restarts_);
             if (session == nullptr)
                 return errorResponse(503, "too many sessions: log one off", Form::Xhtml,
                                      contextOf(dialect, head, visit.path));
@@ -287,6 +292,10 @@ void FrontDoor::execute(const Route& route, Request request, const std::shared_p
                         const http::Respond& respond) {
     auto work = [this, &route, request = std::move(request), visit, respond] {
         const RenderContext context{request.dialect, request.base, request.path};
+        if (hasEnded(*request.session)) { // the controller has restarted since
+            return settings_.postToNetwork(
+                [this, dialect = request.dialect, respond] { respond(challenge(dialect, false)); });
+        }
         const auto reply = std::make_shared<Reply>(callHandler(route.handler, request));
         settings_.postToNetwork([context, reply, visit, respond] {
             if (!visit->form && reply->document) // of a folder: its form matters

@@ -15,6 +15,7 @@
 #include "tools/rws/sessions.h"
 #include "tools/rws/workers.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -56,6 +57,8 @@ class FrontDoor {
     void setSockets(SocketGate* sockets) { sockets_ = sockets; }
     /// A session with open sockets does not expire.
     void countSockets(uint64_t session, int change);
+    /// The controller restarts: all sessions end. On the controller's thread.
+    void endSessions();
     /// Once a second.
     void tick() { sessions_.expire(); }
 
@@ -80,6 +83,7 @@ class FrontDoor {
     void execute(const Route& route, Request request, const std::shared_ptr<Visit>& visit,
                  const http::Respond& respond);
     http::Response challenge(Dialect dialect, bool stale);
+    bool hasEnded(const Session& session) const { return session.restarts < restarts_; }
 
     FrontDoorSettings settings_;
     const Router& router_;
@@ -87,6 +91,7 @@ class FrontDoor {
     Sessions sessions_;
     Workers workers_;
     SocketGate* sockets_ = nullptr;
+    std::atomic<uint64_t> restarts_{0}; ///< of the controller
     std::unique_ptr<Side> sides_[2];
 };
 

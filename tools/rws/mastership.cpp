@@ -67,6 +67,10 @@ bool Mastership::releaseWithId(const std::vector<Domain>& domains, int id) {
     return true;
 }
 
+void Mastership::releaseAll() {
+    drop([](Domain, const Holder&) { return true; });
+}
+
 void Mastership::sessionEnded(uint64_t session) {
     for (std::optional<Holder>& held : holders_)
         if (held && held->session == session && held->id != 0) held->session = 0;

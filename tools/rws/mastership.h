@@ -37,6 +37,8 @@ class Mastership {
     bool release(const std::vector<Domain>& domains, uint64_t session);
     /// False when the domains are not held with this id.
     bool releaseWithId(const std::vector<Domain>& domains, int id);
+    /// Releases everything, what was requested with an id too.
+    void releaseAll();
     /// Each ends what belonged to it.
     void sessionEnded(uint64_t session);
     void connectionClosed(uint64_t connection);

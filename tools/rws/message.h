@@ -27,7 +27,8 @@ struct Session {
     uint64_t number = 0; ///< never used twice
     Dialect dialect = Dialect::V1;
     std::string user;
-    std::string address; ///< of the client: "127.0.0.1"
+    std::string address;   ///< of the client: "127.0.0.1"
+    uint64_t restarts = 0; ///< of the controller, before it was logged on: the next one ends it
 };
 
 /// Values by name, as decoded from a query or a form. A name may come more than once.

@@ -34,6 +34,8 @@ class RapidServices {
     void sessionBegan(std::shared_ptr<const Session> session);
     /// A session was closed, or has expired.
     void sessionEnded(uint64_t session);
+    /// The controller restarts: masterships end, those requested with an id too.
+    void controllerRestarts() { mastership_.releaseAll(); }
     /// A TCP connection of RWS 1.0 was closed.
     void connectionClosed(uint64_t connection);
 

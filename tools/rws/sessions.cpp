@@ -7,12 +7,12 @@
 namespace rapidc::rws {
 
 Sessions::LoggedOn* Sessions::logOn(Dialect dialect, const std::string& user, const std::string& address,
-                                    uint64_t connection, const std::string& proof) {
+                                    uint64_t connection, const std::string& proof, uint64_t restarts) {
     if (sessions_.size() >= kMost) expire();
     if (sessions_.size() >= kMost) return nullptr;
     const uint64_t number = ++last_;
     LoggedOn& session = sessions_[number];
-    session.session = std::make_shared<const Session>(Session{number, dialect, user, address});
+    session.session = std::make_shared<const Session>(Session{number, dialect, user, address, restarts});
     session.cookie = http::randomHex(16);
     session.abbcx = http::randomHex(8);
     session.proof = proof;
@@ -64,13 +64,21 @@ void Sessions::end(uint64_t number) {
     ended_(number);
 }
 
+template <class Fits> void Sessions::endIf(const Fits& fits) {
+    std::vector<uint64_t> numbers;
+    for (const auto& [number, session] : sessions_)
+        if (fits(session)) numbers.push_back(number);
+    for (const uint64_t number : numbers)
+        end(number);
+}
+
+void Sessions::endBefore(uint64_t restarts) {
+    endIf([&](const LoggedOn& each) { return each.session->restarts < restarts; });
+}
+
 void Sessions::expire() {
     const auto now = Clock::now();
-    std::vector<uint64_t> idle;
-    for (const auto& [number, session] : sessions_)
-        if (session.sockets == 0 && now - session.used > kIdleTime) idle.push_back(number);
-    for (const uint64_t number : idle)
-        end(number);
+    endIf([&](const LoggedOn& each) { return each.sockets == 0 && now - each.used > kIdleTime; });
 }
 
 } // namespace rapidc::rws

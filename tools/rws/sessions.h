@@ -37,8 +37,9 @@ class Sessions {
 
     /// Null: there are kMost.
     /// `proof`: the nonce of its digest, which identifies the client among those that share a connection; "" with basic.
+    /// `restarts`: of the controller up to now.
     LoggedOn* logOn(Dialect dialect, const std::string& user, const std::string& address, uint64_t connection,
-                    const std::string& proof);
+                    const std::string& proof, uint64_t restarts = 0);
     /// The session of a cookie; null when there is none of this dialect.
     LoggedOn* find(std::string_view cookie, Dialect dialect);
     /// The session that was logged on over this connection with this proof, for clients without cookies; null when there is
@@ -51,11 +52,15 @@ class Sessions {
     /// Counts a request; false: there are too many.
     static bool countRequest(LoggedOn& session);
     void end(uint64_t number);
+    /// Ends those that were logged on before the controller had restarted so often.
+    void endBefore(uint64_t restarts);
     void connectionEnded(uint64_t connection) { connections_.erase(connection); }
     /// Ends those that were idle too long.
     void expire();
 
   private:
+    template <class Fits> void endIf(const Fits& fits);
+
     std::function<void(uint64_t)> ended_;
     std::map<uint64_t, LoggedOn> sessions_;                ///< by number
     std::map<std::string, uint64_t, std::less<>> cookies_; ///< cookie -> number

@@ -27,8 +27,8 @@ System::System(service::VirtualController& controller, const service::FileVolume
     : controller_(controller), volumes_(volumes) {
     service::Observer observer;
     observer.changed = [this](service::Change change, const rt::Task*) {
+        if (change == service::Change::Restart) ++restarts_;
         if (change != service::Change::Generation) return;
-        ++restarts_;
         facts_.reset();
         rt::Controller& core = controller_.core();
         core.setCalendarSeconds(core.calendarSeconds() + clockOffset_);

@@ -241,9 +241,15 @@ std::string typeText(const rt::TypeDesc& type, const std::vector<int32_t>& dims)
     return dims.empty() ? text : text + "}";
 }
 
-bool readAll(std::string_view text, std::vector<char>& bytes, const rt::TypeDesc& type,
-             const std::vector<int32_t>& dims) {
-    return readValue(text, bytes.data(), type, dims.data(), dims.data() + dims.size());
+/// "" or what is wrong.
+std::string readAll(std::string_view text, std::vector<char>& bytes, const rt::TypeDesc& type,
+                    const std::vector<int32_t>& dims) {
+    if (!readValue(text, bytes.data(), type, dims.data(), dims.data() + dims.size()))
+        return fmt::format("the text is not a value of type {}", typeText(type, dims));
+    std::string problem;
+    for (std::size_t at = 0; at < bytes.size() && problem.empty(); at += type.size)
+        problem = rt::rangeProblem(bytes.data() + at, type);
+    return problem;
 }
 
 } // namespace
@@ -325,10 +331,9 @@ std::string assign(const FoundData& found, std::string_view text) {
     if (found.isProtected) return "it belongs to the system and cannot be changed";
     std::vector<char> bytes(found.bytes());
     std::memcpy(bytes.data(), found.data, bytes.size());
-    if (!readAll(text, bytes, *found.type, found.dims))
-        return fmt::format("the text is not a value of type {}", typeText(*found.type, found.dims));
-    std::memcpy(found.data, bytes.data(), bytes.size());
-    return {};
+    std::string problem = readAll(text, bytes, *found.type, found.dims);
+    if (problem.empty()) std::memcpy(found.data, bytes.data(), bytes.size());
+    return problem;
 }
 
 std::string checkValue(const rt::TypeDesc& type, const std::vector<int32_t>& dims, std::string_view text) {
@@ -336,9 +341,7 @@ std::string checkValue(const rt::TypeDesc& type, const std::vector<int32_t>& dim
     shape.type = &type;
     shape.dims = dims;
     std::vector<char> bytes(shape.bytes());
-    return readAll(text, bytes, type, dims)
-               ? std::string()
-               : fmt::format("the text is not a value of type {}", typeText(type, dims));
+    return readAll(text, bytes, type, dims);
 }
 
 } // namespace rapidc::service

@@ -32,6 +32,7 @@ enum class Change : uint8_t {
     Display,        ///< a line was written with TPWrite, or the display erased
     Mastership,
     Interval,   ///< 200 ms have passed while clients are served: for states that report no changes
+    Restart,    ///< an order to restart was accepted: the sessions of all clients end, and Generation follows
     Generation, ///< restart or program load: core() is another object now; watches of signals and data continue
 };
 

@@ -190,15 +190,21 @@ void VirtualController::look() {
 }
 
 void VirtualController::post(std::function<void()> command) {
-    inbox_.post([this, command = std::move(command)] { execute(command); });
+    inbox_.post([this, command = std::move(command)]() mutable { execute(std::move(command)); });
 }
 
-/// A command that comes after an order to restart is for the next controller.
-void VirtualController::execute(const std::function<void()>& command) {
-    if (succession_ || ends_)
-        postponed_.push_back(command);
-    else
+/// A command that comes after an order to restart is for the next controller. All are executed in the order in which they came.
+void VirtualController::execute(std::function<void()> command) {
+    postponed_.push_back(std::move(command));
+    executePostponed();
+}
+
+void VirtualController::executePostponed() {
+    while (!postponed_.empty() && !succession_ && !ends_) {
+        const std::function<void()> command = std::move(postponed_.front());
+        postponed_.pop_front();
         command();
+    }
 }
 
 void VirtualController::shutDown() {
@@ -230,10 +236,7 @@ rt::ExitStatus VirtualController::succeed() {
     cycleStop_ = false;
     if (const rt::ExitStatus status = makeCore(*how); status != rt::ExitStatus::Ended) return status;
     observers_.changed(Change::Generation);
-    std::deque<std::function<void()>> commands;
-    commands.swap(postponed_);
-    for (std::function<void()>& command : commands)
-        inbox_.post([this, command = std::move(command)] { execute(command); });
+    inbox_.post([this] { executePostponed(); });
     return rt::ExitStatus::Ended;
 }
 
@@ -268,6 +271,7 @@ Refusal VirtualController::restart(RestartMode mode) {
     emergencyStop_ = safeguardOpen_ = false;
     succession_ = std::move(next);
     core_->endRun();
+    observers_.changed(Change::Restart);
     return {};
 }
 

@@ -174,7 +174,8 @@ class VirtualController {
     rt::ExitStatus makeCore(const Succession& how);
     void observe();
     void look();
-    void execute(const std::function<void()>& command);
+    void execute(std::function<void()> command);
+    void executePostponed();
     rt::ExitStatus succeed();
     Refusal replaceProgram(ModuleEdits edits, const rt::Task& task, const std::string& what);
     Refusal link(rt::Task& task, const rt::LoadRequest& request, const rt::LoadedModule* before,

@@ -322,6 +322,9 @@ TEST_CASE("query: a short list holds the best items of the long one", "[query][c
     for (int i = 0; i < 300; ++i) // in an order of their own
         declarations += "VAR speeddata Speed" + std::to_string(i * 7 % 300) + ";\nPROC work" +
                         std::to_string(i * 11 % 300) + "()\nENDPROC\n";
+    for (char first = 'z'; first >= 'a'; --first) // without numbers, in both cases
+        declarations += std::string("VAR speeddata ") + first + "Rate;\nVAR speeddata " +
+                        static_cast<char>(first - 32) + "_x12y;\n";
     const Program program({inMain("MoveL p10,$1;\n$2\ncount:=$3;", declarations)});
     for (const int marker : {1, 2, 3}) {
         CompletionOptions all, few;

@@ -51,6 +51,21 @@ TEST_CASE("A session belongs to its cookie, its dialect and its connection (serv
     CHECK_FALSE(sessions.find(cookie, Dialect::V1));
 }
 
+TEST_CASE("A restart ends the sessions of the time before (decision 132)", "[rws]") {
+    std::set<uint64_t> ended;
+    Sessions sessions([&](uint64_t number) { ended.insert(number); });
+    const Sessions::LoggedOn* before = sessions.logOn(Dialect::V1, "Admin", "127.0.0.1", 1, "nonce", 2);
+    const Sessions::LoggedOn* after = sessions.logOn(Dialect::V2, "Admin", "127.0.0.1", 2, "", 3);
+    REQUIRE((before && after));
+    const uint64_t number = before->session->number;
+    const std::string old = before->cookie, current = after->cookie;
+    sessions.endBefore(3);
+    CHECK(ended == std::set<uint64_t>{number});
+    CHECK_FALSE(sessions.find(old, Dialect::V1));
+    CHECK_FALSE(sessions.ofConnection(1, "Admin", "nonce"));
+    CHECK(sessions.find(current, Dialect::V2));
+}
+
 TEST_CASE(
     "A burst of more than a thousand requests meets the limit, three hundred do not (serve-contract 14)",
     "[rws]") {

@@ -188,6 +188,39 @@ TEST_CASE("a restart keeps persistents; a cold one begins again", "[service]") {
     CHECK(served.value("count") == "0");
 }
 
+TEST_CASE("commands that come during a restart are executed in their order", "[service]") {
+    Served served(kCounter);
+    std::vector<int> order;
+    served.ask([&](VirtualController& c) {
+        Observer observer;
+        observer.changed = [&](Change change, const rt::Task*) {
+            if (change == Change::Restart) c.post([&] { order.push_back(1); });
+            if (change == Change::Generation) c.post([&] { order.push_back(2); });
+        };
+        c.observers().add(std::move(observer));
+        return c.restart(RestartMode::Warm);
+    });
+    CHECK(served.comes([&](VirtualController&) { return order.size() == 2; }));
+    CHECK(order == std::vector<int>{1, 2});
+}
+
+TEST_CASE("a byte is a whole number from 0 to 255 (1.15)", "[service]") {
+    rt::TypeDesc byte{};
+    byte.name = byte.baseName = "byte";
+    byte.kind = rt::DescKind::Num;
+    byte.size = sizeof(float);
+    byte.count = 1;
+    for (const float good : {0.0F, 1.0F, 255.0F})
+        CHECK(rt::rangeProblem(&good, byte).empty());
+    for (const float bad : {-1.0F, 1.5F, 1E38F})
+        CHECK_FALSE(rt::rangeProblem(&bad, byte).empty());
+    const float large = 256;
+    CHECK(rt::rangeProblem(&large, byte) == "256 is not a byte: give a whole number from 0 to 255");
+    rt::TypeDesc number = byte;
+    number.name = "num";
+    CHECK(rt::rangeProblem(&large, number).empty());
+}
+
 TEST_CASE("modules come and go; one with mistakes changes nothing", "[service]") {
     Served served(kCounter);
     const std::string good = served.file("Part.modx", "MODULE Part\n  PERS num fromPart := 7;\nENDMODULE\n");

@@ -230,8 +230,10 @@ void Variables::assign(const rt::DebugVariable& variable, const std::string& tex
     type.fields = &element;
     const bool hasText = element->kind != rt::DescKind::Handle && element->kind != rt::DescKind::Bytes &&
                          element->kind != rt::DescKind::Other;
-    if (!hasText || !rt::textToValue(rt::trimmed(text), variable.data, type))
-        throw Refusal(fmt::format("'{}' is not a value of type {}", text, rt::typeName(variable)));
+    const std::string shown = rt::typeName(variable);
+    if (!hasText) throw Refusal(fmt::format("'{}' is not a value of type {}", text, shown));
+    const std::string problem = rt::writeText(rt::trimmed(text), variable.data, type, shown);
+    if (!problem.empty()) throw Refusal(problem);
 }
 
 Json Variables::set(const Arguments& arguments) {

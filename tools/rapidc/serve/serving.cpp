@@ -39,11 +39,19 @@ Serving::Serving(const ServeSettings& settings, service::VirtualController& cont
     };
     door_ = std::make_unique<rws::FrontDoor>(std::move(door), router_);
     door_->setSockets(&subscriptions_);
+    service::Observer observer;
+    observer.changed = [this](service::Change change, const rt::Task*) {
+        if (change != service::Change::Restart) return;
+        rapid_.controllerRestarts();
+        door_->endSessions();
+    };
+    observer_ = controller_.observers().add(std::move(observer));
     subscriptions_.onSockets([this](uint64_t session, int change) { door_->countSockets(session, change); });
 }
 
 Serving::~Serving() {
     server_.stop();
+    controller_.observers().remove(observer_);
 }
 
 std::string Serving::listen(const char* option, http::Endpoint endpoint, uint16_t& port) {

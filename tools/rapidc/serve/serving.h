@@ -42,6 +42,7 @@ class Serving {
     rws::Subscriptions subscriptions_;
     std::unique_ptr<rws::FrontDoor> door_;
     pendant::PendantService pendant_;
+    service::Observers::Token observer_ = 0;
     http::Server server_; ///< last: it ends first
     uint16_t httpPort_ = 0, httpsPort_ = 0, webPort_ = 0;
 };

@@ -17,6 +17,7 @@ const { tokensOf } = await load("program/rapid_tokens.ts");
 const { Recorder, sampleAt, spanOf } = await load("recording/recorder.ts");
 const { csvOf, samplesFrom } = await load("recording/recording_file.ts");
 const { eulerAngles } = await load("math/pose.ts");
+const { whenPageIsLeft, whileHeld } = await load("ui/hold.ts");
 
 const kinds = (line) => tokensOf(line).filter(({ text }) => text.trim() !== "").map(({ kind, text }) => [kind, text.trim()]);
 
@@ -96,4 +97,62 @@ test("a file that is not a run is refused with its line", () => {
     assert.throws(() => samplesFrom("PROC main()\nENDPROC\n", twoUnits), /Line 1 names no column time_s/);
     assert.throws(() => samplesFrom("time_s,j1,j2\n0,1,2\n1,x,3\n", twoUnits), /Line 3: 'x' is not a number for j1/);
     assert.throws(() => samplesFrom("time_s,unit,j1\n0,ROB_7,1\n", twoUnits), /no sample of a robot/);
+});
+
+/** A button that is held, and how often it began and ended. */
+function fakeButton() {
+    const item = new EventTarget();
+    const captured = new Set();
+    item.hasPointerCapture = (id) => captured.has(id);
+    item.releasePointerCapture = (id) => captured.delete(id);
+    const counts = { begun: 0, ended: 0 };
+    whileHeld(item, () => counts.begun++, () => counts.ended++);
+    const fire = (type, fields = {}) => item.dispatchEvent(Object.assign(new Event(type, { cancelable: true }), { pointerId: 1, button: 0, ...fields }));
+    return { captured, counts, fire };
+}
+
+test("a held button ends when it is released, left or loses the focus (docs/serve.md, Jogging)", () => {
+    for (const type of ["pointerup", "pointercancel", "pointerleave", "blur"]) {
+        const { counts, fire } = fakeButton();
+        fire("pointerdown");
+        assert.deepEqual(counts, { begun: 1, ended: 0 }, type);
+        fire(type);
+        assert.deepEqual(counts, { begun: 1, ended: 1 }, type);
+    }
+});
+
+test("a touch may leave a held button; other buttons of the mouse do not hold it", () => {
+    const { captured, counts, fire } = fakeButton();
+    captured.add(1);
+    fire("pointerdown");
+    assert.equal(captured.size, 0);
+    fire("pointerdown", { button: 2 });
+    assert.equal(counts.begun, 1);
+});
+
+test("a key holds a button once, until it is released", () => {
+    const { counts, fire } = fakeButton();
+    for (const key of [" ", "Enter"]) {
+        fire("keydown", { key });
+        fire("keydown", { key, repeat: true });
+        fire("keyup", { key });
+    }
+    fire("keydown", { key: "a" });
+    assert.deepEqual(counts, { begun: 2, ended: 2 });
+});
+
+test("the page is left when its window loses the focus or it is hidden", () => {
+    globalThis.window = new EventTarget();
+    globalThis.document = Object.assign(new EventTarget(), { hidden: false });
+    let left = 0;
+    whenPageIsLeft(() => left++);
+    document.dispatchEvent(new Event("visibilitychange"));
+    assert.equal(left, 0);
+    document.hidden = true;
+    document.dispatchEvent(new Event("visibilitychange"));
+    window.dispatchEvent(new Event("blur"));
+    window.dispatchEvent(new Event("pagehide"));
+    assert.equal(left, 3);
+    delete globalThis.window;
+    delete globalThis.document;
 });

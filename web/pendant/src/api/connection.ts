@@ -12,7 +12,7 @@ export class RequestError extends Error {
 }
 
 type Handler<K extends keyof Notifications> = (data: Notifications[K]) => void;
-type Status = "connecting" | "open" | "login" | "closed";
+export type Status = "connecting" | "open" | "login" | "closed" | "restarting";
 
 interface Waiting {
     resolve: (result: unknown) => void;
@@ -21,6 +21,7 @@ interface Waiting {
 
 const firstRetry = 400; // ms
 const longestRetry = 5000; // ms
+const serviceRestart = 1012; // close code: the controller restarts
 
 /** The WebSocket of the page: requests with promises, notifications by name; opens itself again after a close. */
 export class Connection {
@@ -42,7 +43,7 @@ export class Connection {
         this.socket = socket;
         socket.onopen = () => void this.hello();
         socket.onmessage = (message) => this.receive(String(message.data));
-        socket.onclose = () => this.closed();
+        socket.onclose = ({ code }) => this.closed(code === serviceRestart);
     }
 
     on<K extends keyof Notifications>(name: K, handler: Handler<K>): void {
@@ -101,13 +102,13 @@ export class Connection {
         else waiting.resolve(message.result ?? {});
     }
 
-    private closed(): void {
+    private closed(restarts: boolean): void {
         this.socket = null;
         for (const waiting of this.waiting.values()) {
-            waiting.reject(new RequestError("closed", "The connection to the controller was lost"));
+            waiting.reject(new RequestError("closed", restarts ? "The controller restarts" : "The connection to the controller was lost"));
         }
         this.waiting.clear();
-        this.onStatus("closed");
+        this.onStatus(restarts ? "restarting" : "closed");
         setTimeout(() => this.open(), this.retry);
         this.retry = Math.min(this.retry * 2, longestRetry);
     }

@@ -2,6 +2,7 @@ import type { Model } from "../api/model";
 import type { Frame, Unit } from "../api/protocol";
 import { button, field, Segmented, select, setOptions } from "../ui/controls";
 import { h, replaceChildren, setText } from "../ui/dom";
+import { whenPageIsLeft, whileHeld } from "../ui/hold";
 import { attempt, notice } from "../ui/notices";
 import { TeachSection } from "./teach_section";
 
@@ -32,6 +33,7 @@ export class JogPanel {
     private readonly teach: TeachSection;
     private values: HTMLElement[] = [];
     private timer = 0;
+    private held: HTMLElement | null = null; // the button that jogs
 
     constructor(private readonly model: Model) {
         const kinds = [
@@ -104,8 +106,7 @@ export class JogPanel {
         this.model.on("jog", ({ limit }) => {
             if (limit) notice("warning", "Jogging ended", limit);
         });
-        window.addEventListener("blur", () => this.stop());
-        document.addEventListener("visibilitychange", () => document.hidden && this.stop());
+        whenPageIsLeft(() => this.stop());
     }
 
     private unit(): Unit | undefined {
@@ -154,26 +155,12 @@ export class JogPanel {
         const item = button({ icon: sign > 0 ? "plus" : "minus", label: `${name} ${sign > 0 ? "positive" : "negative"}`, iconOnly: true, class: "jog-key" });
         const begin = (): void => {
             const values = Array.from({ length: count }, (_, at) => (at === index ? sign : 0));
+            this.held?.classList.remove("held");
+            this.held = item;
             item.classList.add("held");
             this.start(values);
         };
-        const end = (): void => {
-            if (!item.classList.contains("held")) return;
-            item.classList.remove("held");
-            this.stop();
-        };
-        item.addEventListener("pointerdown", (event) => {
-            item.setPointerCapture(event.pointerId);
-            begin();
-        });
-        for (const type of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) item.addEventListener(type, end);
-        item.addEventListener("keydown", (event) => {
-            if ((event.key !== " " && event.key !== "Enter") || event.repeat) return;
-            event.preventDefault();
-            begin();
-        });
-        item.addEventListener("keyup", (event) => (event.key === " " || event.key === "Enter") && end());
-        item.addEventListener("contextmenu", (event) => event.preventDefault()); // a long touch is no menu
+        whileHeld(item, begin, () => this.held === item && this.stop());
         return item;
     }
 
@@ -198,6 +185,8 @@ export class JogPanel {
     }
 
     private stop(): void {
+        this.held?.classList.remove("held");
+        this.held = null;
         if (this.timer === 0) return;
         const incremental = this.timer === -1; // that arm stops by itself
         clearInterval(this.timer);
@@ -230,6 +219,7 @@ export class JogPanel {
             [panel.motors !== "on", "The motors are off", "Motors on", request("panel.motors", { on: true })],
         ];
         const missing = steps.find(([applies]) => applies);
+        if (missing) this.stop(); // a disabled button has no events
         this.guard.hidden = !missing;
         this.element.classList.toggle("jog-blocked", missing !== undefined);
         for (const key of this.keys.querySelectorAll("button")) key.disabled = missing !== undefined;

@@ -1,3 +1,4 @@
+import type { Status } from "../api/connection";
 import type { Model } from "../api/model";
 import { button } from "../ui/controls";
 import { h } from "../ui/dom";
@@ -80,8 +81,9 @@ export class Shell {
         this.topBar.showProduct(product);
     }
 
-    showStatus(status: "connecting" | "open" | "login" | "closed"): void {
-        if (status === "connecting" && this.cover.dataset.status === "closed") return; // the text stays
+    showStatus(status: Status): void {
+        const shown = this.cover.dataset.status;
+        if (status === "connecting" && (shown === "closed" || shown === "restarting")) return; // the text stays
         this.cover.dataset.status = status;
         this.cover.hidden = status === "open";
         if (status === "login") this.askPassword();
@@ -134,9 +136,9 @@ export class Shell {
         next.button.focus();
     }
 
-    private showWaiting(status: "connecting" | "closed"): void {
-        const title = status === "closed" ? "Connection lost" : "Connecting";
-        const text = status === "closed" ? "The page connects again as soon as the controller answers." : "";
+    private showWaiting(status: "connecting" | "closed" | "restarting"): void {
+        const title = { connecting: "Connecting", closed: "Connection lost", restarting: "The controller restarts" }[status];
+        const text = status === "connecting" ? "" : "The page connects again as soon as the controller answers.";
         this.cover.replaceChildren(h("div", { class: "cover-card" }, icon("wifi"), h("h2", { text: title }), h("p", { text })));
     }
 
