@@ -56,6 +56,7 @@ struct DebugFrame {
     bool isTrap = false; ///< the system called it: an interrupt or an event
 };
 
+// Size: every order to step a program, of one task or of tasks that move together, on one state for each task.
 class Debugger final : public StepHook {
   public:
     explicit Debugger(DebugHost& host) : host_(host), breakpoints_(host) {}

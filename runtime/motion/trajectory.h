@@ -130,7 +130,7 @@ class Trajectory {
     /// The arm is at a place, without having moved there (after braking off the path).
     virtual void standAt(double now, const PathPlace& place);
 
-    /// What lies before both is not asked for any more; a leader keeps what its followers ask for.
+    /// Drops the part before this time and place, except for runs that a follower still asks for.
     virtual void forgetBefore(double time, const PathPlace& place);
 
   protected:

@@ -18,7 +18,7 @@
 namespace rt {
 namespace {
 
-/// What a task that is halted says of itself, as long as this lives; the wait of a trap routine may interrupt another one.
+/// A value that holds as long as this lives: in waits, which those of trap routines may interrupt.
 template <class Value> class Meanwhile {
   public:
     Meanwhile(Value& place, Value here) : place_(place), before_(std::exchange(place, here)) {}
