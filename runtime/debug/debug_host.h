@@ -29,6 +29,8 @@ class DebugHost : public TaskHost {
     /// Routine for late binding; `module` may be empty.
     virtual const RoutineEntry* findRoutine(std::string_view name, std::string_view module,
                                             const Task& task) const = 0;
+    /// A deselected task is not started.
+    virtual bool isTaskActive(const Task& task) const = 0;
     /// The arm that the task moves. Present as soon as the program can run.
     virtual SteppedArm& arm(const Task& task) = 0;
     virtual void forEachArm(const std::function<void(SteppedArm&)>& action) = 0;

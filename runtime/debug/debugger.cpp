@@ -55,6 +55,7 @@ void Debugger::stopAtEntry() {
 }
 
 bool Debugger::poll() {
+    endMeeting();
     constexpr int kPatience = 3; // looks; a task that executes comes to a statement in each slice
     if (pausing_ != nullptr && stoppedTask_ == nullptr && ++pausePolls_ > kPatience) stopAll(*pausing_);
     const auto isBusy = [](const auto& task) { return task->hasWorkWhileStopped(); };
@@ -79,6 +80,8 @@ bool Debugger::holds() const {
 }
 
 void Debugger::noteStop(Task& task, StopReason reason) {
+    if (reason != StopReason::Step)
+        together_.tasks.clear(); // those inside of a movement finish it with the next step
     if (stoppedTask_ != nullptr) return;
     stoppedTask_ = &task;
     stopReason_ = reason;
@@ -94,14 +97,15 @@ int32_t Debugger::beforeStatement(Task& task, Frame* at) {
         return here;
     }
     StopReason reason = StopReason::Step;
+    const bool isTakenBack = task.claimTakenBack();
     if (state.backwardFrame == at) {
-        finishBackward(task, state, at);
+        finishBackward(task, state, at, isTakenBack);
     } else if (state.pendingBackward) {
         state.pendingBackward = false;
-        if (const std::string problem = startBackward(task, state, at); !problem.empty())
-            host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+        if (std::string problem = startBackward(task, state, at); !problem.empty())
+            refusedBackward(task, std::move(problem));
         if (state.backwardFrame != nullptr) return continueAt(state, at, here);
-    } else {
+    } else if (!isTakenBack) {
         const bool inUndo = task.isUnwinding();
         const bool stops = shouldStop(task, state, at, reason);
         if (!inUndo && task.isUnwinding())
@@ -176,9 +180,12 @@ int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, St
 }
 
 Status Debugger::standStill(Task& task, StopReason reason) {
-    noteStop(task, reason);
+    Task* reported = &task;
+    const bool isLast = reason != StopReason::Step || endsStepTogether(reported);
+    if (isLast) noteStop(*reported, reason);
     task.setStepwise(true);
     task.stop(StopCause::Step);
+    if (!isLast) return task.suspendStopped();
     // Without a client, each task completes the step that it makes together with others; a client expects all tasks to stop.
     const auto steps = [&](const auto& other) {
         const Mode mode = stateOf(*other).mode;
@@ -249,8 +256,7 @@ void Debugger::resumeOthers(const Task& task) {
     for (const auto& other : host_.tasks()) {
         const bool stopped = other->kind() == TaskKind::Normal || other->stopCause() == StopCause::Step;
         if (other.get() == &task || !stopped || !other->isStopped()) continue;
-        stateOf(*other).mode = Mode::Run;
-        other->setStepwise(false);
+        continuous(*other);
         if (other->canResume()) other->resume();
     }
 }
@@ -284,6 +290,12 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     }
     task.resume();
     return "";
+}
+
+std::string Debugger::runAlone(Task& task) {
+    if (std::string problem = refusal(task); !problem.empty()) return problem;
+    continuous(task);
+    return begin(task, Mode::Run, true);
 }
 
 std::string Debugger::stepLine(Task& task, bool intoRoutines, bool alone) {
@@ -336,10 +348,6 @@ std::string Debugger::run() {
     }
     held_ = false;
     return "";
-}
-
-std::string Debugger::stepTogether(Task& task, bool forward) {
-    return forward ? begin(task, Mode::In, true) : stepBackward(task);
 }
 
 std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t line) {

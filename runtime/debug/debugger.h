@@ -56,6 +56,7 @@ struct DebugFrame {
     bool isTrap = false; ///< the system called it: an interrupt or an event
 };
 
+// Size: every order to step a program, of one task or of tasks that move together, on one state for each task.
 class Debugger final : public StepHook {
   public:
     explicit Debugger(DebugHost& host) : host_(host), breakpoints_(host) {}
@@ -91,7 +92,7 @@ class Debugger final : public StepHook {
     std::string pause(Task& task);
     std::string run();
     /// One task only.
-    std::string runAlone(Task& task) { return begin(task, Mode::Run, true); }
+    std::string runAlone(Task& task);
     std::string stepIn(Task& task, bool alone = false) { return begin(task, Mode::In, alone); }
     std::string stepOver(Task& task, bool alone = false) { return begin(task, Mode::Over, alone); }
     /// As stepOver, but until another line is reached.
@@ -99,11 +100,12 @@ class Debugger final : public StepHook {
     std::string stepOut(Task& task, bool alone = false) { return begin(task, Mode::Out, alone); }
     /// Until the next movement instruction is to be executed.
     std::string stepMove(Task& task, bool alone = false) { return begin(task, Mode::Move, alone); }
+    /// With a movement, the tasks whose robots move together with this one (SyncMoveOn) make theirs.
     std::string stepBackward(Task& task);
+    /// Each of these tasks steps backward; those that move together make one step.
+    std::string stepBackward(const std::vector<Task*>& tasks);
     /// Steps backward until the beginning of the routine or a breakpoint.
     std::string runBackward(Task& task);
-    /// As controller actions do it: every NORMAL task makes its step.
-    std::string stepTogether(Task& task, bool forward);
     std::string runToLine(Task& task, std::string_view where, uint32_t line);
 
     // ---- Program pointer (manual 1.2.2, 1.13); the task must stand still.
@@ -144,9 +146,11 @@ class Debugger final : public StepHook {
     // ---- StepHook
     int32_t beforeStatement(Task& task, Frame* at) override;
     bool isBackward(const Task& task) const override;
+    bool refuseBackward(Task& task) override;
     Status handledErrorRaised(Task& task, int number) override;
 
   private:
+    static constexpr const char* kInCircle = "the direction cannot be changed while the robot executes MoveC";
     enum class Mode : uint8_t { Run, In, Over, Out, Move, Cursor, Backward, Line, LineInto, Pause };
     struct State {
         Mode mode = Mode::Run;
@@ -185,10 +189,40 @@ class Debugger final : public StepHook {
     /// The state that belongs to the call chain that was left.
     void forget(const Task& task);
     // debugger_backward.cpp
+    struct BackwardPlan {
+        enum class Kind : uint8_t {
+            Moves,    ///< the program pointer only
+            Executes, ///< a movement
+            Calls,    ///< a procedure with a BACKWARD handler
+            Continues ///< inside of that handler
+        };
+        std::string problem; ///< it cannot be done; the rest is without meaning
+        Kind kind = Kind::Moves;
+        int32_t statement = -1; ///< of the program pointer then
+        bool isTop = false;     ///< nothing lies before that one
+        bool executes() const { return kind != Kind::Moves; }
+    };
+    /// One step backward; nothing is changed yet.
+    BackwardPlan planBackward(Task& task, const State& state, Frame* at);
     /// Moves the program pointer, or begins to execute its statement backwards (then backwardFrame is set).
+    void carryOut(Task& task, State& state, Frame* at, const BackwardPlan& plan);
     std::string startBackward(Task& task, State& state, Frame* at);
+    /// Writes the reason to the event log, and returns it.
+    std::string refusedBackward(const Task& task, std::string problem);
+    /// Why the last movement cannot be taken back because of SyncMoveOn or SyncMoveOff; "" when it can.
+    std::string refusalOfSync(const Task& task);
+    // debugger_together.cpp
+    /// The tasks that move together with this one, itself included; none when it moves for itself.
+    std::vector<Task*> tasksTogether(const Task& task);
+    std::string stepTogether(Task& task, const std::vector<Task*>& all);
+    std::string refusalTogether(const Task& task);
+    std::string turnTogether(const std::vector<Task*>& all);
+    void finishTogether(Task& task, std::vector<Task*> inside);
+    std::string moveTogether(Task& task, const std::vector<Task*>& all);
+    bool endsStepTogether(Task*& task);
+    void endMeeting();
     bool continuesBackward(Task& task);
-    void finishBackward(Task& task, State& state, Frame* at);
+    void finishBackward(Task& task, State& state, Frame* at, bool isTakenBack);
     /// The first step forward after one backward moves the pointer only. False: it is not needed.
     bool turnForward(Task& task, State& state);
 
@@ -201,6 +235,11 @@ class Debugger final : public StepHook {
     bool errorEndsRun_ = false; ///< an error has stopped the program, and the client does not stop at errors
     Task* pausing_ = nullptr;   ///< ordered to pause
     int pausePolls_ = 0;
+    struct {
+        Task* ordered = nullptr;  ///< the task whose step it is
+        std::vector<Task*> tasks; ///< those that have not completed it
+        bool isFirstDone = false; ///< one has
+    } together_;
     Task* stoppedTask_ = nullptr;
     StopReason stopReason_ = StopReason::Entry;
 };

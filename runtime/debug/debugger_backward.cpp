@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 namespace rt {
@@ -41,26 +42,40 @@ constexpr const char* kTop =
 } // namespace
 
 std::string Debugger::stepBackward(Task& task) {
+    if (const std::vector<Task*> together = tasksTogether(task); !together.empty())
+        return stepTogether(task, together);
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     State& state = stateOf(task);
     Frame* at = state.standing;
-    if (state.insideCircle) {
-        const std::string problem = "the direction cannot be changed while the robot executes MoveC";
-        host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
-        return problem;
-    }
+    if (state.insideCircle) return refusedBackward(task, kInCircle);
     if (at == nullptr) { // inside an instruction: it is finished first
         state.pendingBackward = true;
         return begin(task, Mode::Backward, true);
     }
-    if (std::string problem = startBackward(task, state, at); !problem.empty()) {
-        host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
-        return problem;
-    }
-    const bool insidePart = (row(*at, at->statement).flags & kStmtInBackward) != 0;
-    if (state.backwardFrame != nullptr || insidePart) return begin(task, Mode::Backward, true);
+    const BackwardPlan plan = planBackward(task, state, at);
+    if (!plan.problem.empty()) return refusedBackward(task, plan.problem);
+    carryOut(task, state, at, plan);
+    if (plan.executes()) return begin(task, Mode::Backward, true);
     noteStop(task, StopReason::Step);
     return "";
+}
+
+std::string Debugger::stepBackward(const std::vector<Task*>& tasks) {
+    std::string first;
+    std::set<const Task*> done;
+    for (Task* task : tasks) {
+        if (!done.insert(task).second) continue;
+        const std::vector<Task*> together = tasksTogether(*task);
+        done.insert(together.begin(), together.end());
+        std::string problem = stepBackward(*task);
+        if (first.empty()) first = std::move(problem);
+    }
+    return first;
+}
+
+std::string Debugger::refusedBackward(const Task& task, std::string problem) {
+    host_.log().write(EventId::StepRefused, &task, {"Stepping backward", problem});
+    return problem;
 }
 
 std::string Debugger::runBackward(Task& task) {
@@ -79,48 +94,80 @@ bool Debugger::continuesBackward(Task& task) {
     return runBackward(task).empty();
 }
 
-std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
+std::string Debugger::refusalOfSync(const Task& task) {
+    if (!task.isMotionTask()) return "";
+    const MotionPointer& pointer = host_.arm(task).pointer();
+    const MovingTogether together = host_.arm(task).together();
+    if (!together.tasks.empty() && (!together.first || pointer.command.ident == *together.first))
+        return "SyncMoveOn cannot be passed backwards: move the program pointer";
+    if (!together.tasks.empty() || pointer.command.ident == motion::kNoIdent) return "";
+    int arms = 0;
+    host_.forEachArm([&arms](SteppedArm&) { ++arms; });
+    if (arms == 1) return ""; // \ID has no meaning
+    return "SyncMoveOff and SyncMoveUndo cannot be passed backwards: move the program pointer";
+}
+
+Debugger::BackwardPlan Debugger::planBackward(Task& task, const State& state, Frame* at) {
+    BackwardPlan plan{{}, BackwardPlan::Kind::Moves, at->statement, false};
     const StmtDesc& statement = row(*at, at->statement);
-    if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr)
-        return ""; // continues inside
+    const auto refused = [](std::string problem) {
+        return BackwardPlan{std::move(problem), BackwardPlan::Kind::Moves, -1, false};
+    };
+    plan.kind = BackwardPlan::Kind::Continues;
+    if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr) return plan;
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
-        return "instructions of a handler cannot be executed backwards";
+        return refused("instructions of a handler cannot be executed backwards");
+    if (std::string problem = refusalOfSync(task); !problem.empty()) return refused(std::move(problem));
+    plan.kind = BackwardPlan::Kind::Moves;
     if (!state.backwardLast) {
         const int32_t movement = lastMovement(host_.arm(task).pointer(), *at);
-        const int32_t above = row(*at, movement >= 0 ? movement : at->statement).previous;
-        if (above < 0) return kTop;
-        state.backwardLast = true;
-        state.backwardTop = false;
-        at->statement = above;
-        return "";
+        plan.statement = row(*at, movement >= 0 ? movement : at->statement).previous;
+        return plan.statement < 0 ? refused(kTop) : plan;
     }
-    if (state.backwardTop) return kTop;
+    if (state.backwardTop) return refused(kTop);
     if ((statement.flags & kStmtForwardOnly) != 0)
-        return fmt::format(
-            "the instruction in line {} changes motion settings and cannot be executed backwards",
-            statement.line);
+        return refused(
+            fmt::format("the instruction in line {} changes motion settings and cannot be executed backwards",
+                        statement.line));
     const bool call = (statement.flags & kStmtCallsRoutine) != 0;
     if (call && (statement.flags & kStmtCallsBackward) == 0)
-        return fmt::format("the procedure called in line {} has no BACKWARD handler", statement.line);
+        return refused(
+            fmt::format("the procedure called in line {} has no BACKWARD handler", statement.line));
     if (call || (statement.flags & kStmtMovement) != 0) {
-        task.orderBackward(call ? at : nullptr);
-        host_.arm(task).setBackward(true);
-        state.backwardFrame = at;
-        state.backwardStatement = at->statement;
-        return "";
+        plan.kind = call ? BackwardPlan::Kind::Calls : BackwardPlan::Kind::Executes;
+        return plan;
     }
     // Most instructions do nothing when they are executed backwards.
-    state.backwardTop = statement.previous < 0;
-    if (!state.backwardTop) at->statement = statement.previous;
-    return "";
+    plan.isTop = statement.previous < 0;
+    if (!plan.isTop) plan.statement = statement.previous;
+    return plan;
+}
+
+void Debugger::carryOut(Task& task, State& state, Frame* at, const BackwardPlan& plan) {
+    using Kind = BackwardPlan::Kind;
+    if (plan.kind == Kind::Continues) return;
+    at->statement = plan.statement;
+    state.backwardLast = true;
+    state.backwardTop = plan.isTop;
+    if (plan.kind == Kind::Moves) return;
+    task.orderBackward(plan.kind == Kind::Calls ? at : nullptr);
+    host_.arm(task).setBackward(true);
+    state.backwardFrame = at;
+    state.backwardStatement = at->statement;
+}
+
+std::string Debugger::startBackward(Task& task, State& state, Frame* at) {
+    BackwardPlan plan = planBackward(task, state, at);
+    if (plan.problem.empty()) carryOut(task, state, at, plan);
+    return std::move(plan.problem);
 }
 
 /// The statement is done; its frame is asked about the next one.
-void Debugger::finishBackward(Task& task, State& state, Frame* at) {
+void Debugger::finishBackward(Task& task, State& state, Frame* at, bool isTakenBack) {
     host_.arm(task).setBackward(false);
     task.orderBackward(nullptr);
     state.backwardFrame = nullptr;
-    if (std::exchange(state.backwardRefused, false)) { // the program pointer stays
+    if (std::exchange(state.backwardRefused, false) || isTakenBack) { // the program pointer stays
         at->statement = state.backwardStatement;
         return;
     }
@@ -134,10 +181,8 @@ bool Debugger::allowsCall(Task& task, const Frame* caller, const RoutineDesc& ca
     if (found == states_.end() || found->second.backwardFrame != caller || callee.hasBackward != 0)
         return true;
     found->second.backwardRefused = true;
-    host_.log().write(
-        EventId::StepRefused, &task,
-        {"Stepping backward", fmt::format("procedure '{}', called in line {}, has no BACKWARD handler",
-                                          callee.name, row(*caller, caller->statement).line)});
+    refusedBackward(task, fmt::format("procedure '{}', called in line {}, has no BACKWARD handler",
+                                      callee.name, row(*caller, caller->statement).line));
     return false;
 }
 

@@ -6,8 +6,12 @@
 #include "runtime/motion/stop_kind.h"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace rt {
+
+class Task;
 
 /// The movement instruction executed last: its place and its order (manual 1.21).
 struct MotionPointer {
@@ -16,6 +20,12 @@ struct MotionPointer {
     const RoutineDesc* routine = nullptr;
     int32_t statement = -1;
     motion::MoveCommand command;
+};
+
+/// Robots between SyncMoveOn and SyncMoveOff.
+struct MovingTogether {
+    std::vector<Task*> tasks;     ///< none: the robot moves for itself
+    std::optional<int64_t> first; ///< \ID of their first movement; none: they have not made one
 };
 
 /// The arm of a program that is stepped.
@@ -30,6 +40,7 @@ class SteppedArm {
     virtual const MotionPointer& pointer() const = 0;
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     virtual void setBackward(bool backward) = 0;
+    virtual MovingTogether together() const = 0;
 
   protected:
     ~SteppedArm() = default;

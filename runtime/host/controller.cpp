@@ -425,17 +425,17 @@ void Controller::actionStep(bool forward) {
         log_.write(EventId::StepUnavailable, nullptr);
         return;
     }
-    bool any = false;
-    for (const auto& task : tasks_) {
-        if (!isNormal(task) || !task->isStopped() || task->state() == TaskState::Finished ||
-            !isTaskActive(*task))
-            continue;
-        any = true;
-        const std::string problem = debugger_.stepTogether(*task, forward);
-        if (!problem.empty() && forward)
-            log_.write(EventId::StepRefused, task.get(), {"Stepping forward", problem});
+    std::vector<Task*> stopped;
+    for (const auto& task : tasks_)
+        if (isNormal(task) && task->isStopped() && task->state() != TaskState::Finished &&
+            isTaskActive(*task))
+            stopped.push_back(task.get());
+    if (!forward) (void)debugger_.stepBackward(stopped); // it reports itself
+    for (Task* task : stopped) {
+        const std::string problem = forward ? debugger_.stepIn(*task, true) : "";
+        if (!problem.empty()) log_.write(EventId::StepRefused, task, {"Stepping forward", problem});
     }
-    if (!any)
+    if (stopped.empty())
         log_.write(EventId::NothingStopped, nullptr, {forward ? "step_forward" : "step_backward", "stopped"});
 }
 

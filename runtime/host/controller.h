@@ -125,7 +125,7 @@ class Controller final : public DebugHost {
     void setRunOnce(bool once) { runOnce_ = once; }
     /// An inactive NORMAL task is left out of starts.
     void setTaskActive(const Task& task, bool active);
-    bool isTaskActive(const Task& task) const;
+    bool isTaskActive(const Task& task) const override;
     void actionMotors(bool on);
     /// Before prepare(): data, program pointers and arms are as captureState() of another controller gave them. `powerOn`: this is
     /// a restart, so the POWER_ON routines run.

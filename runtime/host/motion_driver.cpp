@@ -299,17 +299,20 @@ Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, mot
     SynchronisedGroup::Order order;
     order.task = &task;
     order.command = std::move(command);
-    if (const std::string problem = group->give(*this, order); !problem.empty())
+    if (const std::string problem = group->give(*this, order); !problem.empty()) {
+        if (refusesBackward(task)) return kAgain;
         return task.fatal(static_cast<int>(EventId::SyncMisused), problem);
+    }
     const auto isOver = [&] { return order.isDone || group->isOver(); };
     Status status = kOk;
     WaitResult result{};
-    const auto mayContinue = [&] { return isOver() || group->isReady() || processError_ != kOk; };
+    WaitSpec meeting{group->queues(), [&] { return isOver() || group->isReady() || processError_ != kOk; }};
+    meeting.isMeeting = true;
     while (status == kOk && !isOver() && processError_ == kOk) {
         if (group->isReady())
             group->orderStep();
         else
-            status = task.waitFor({group->queues(), mayContinue}, result);
+            status = task.waitFor(meeting, result);
     }
     if (status == kOk && !order.isDone) status = takeProcessError(task); // of another robot
     if (!order.isDone) group->withdraw(*this);
@@ -342,6 +345,19 @@ void MotionDriver::leaveGroup() {
 const std::shared_ptr<SynchronisedGroup>& MotionDriver::synchronised() const {
     static const std::shared_ptr<SynchronisedGroup> kNone;
     return isSuspended_ ? kNone : synchronised_;
+}
+
+bool MotionDriver::refusesBackward(Task& task) const {
+    return backward_ && task.stepHook() != nullptr && task.stepHook()->refuseBackward(task);
+}
+
+MovingTogether MotionDriver::together() const {
+    MovingTogether together;
+    if (synchronised() == nullptr) return together;
+    for (const SynchronisedGroup::Member& member : synchronised_->members())
+        together.tasks.push_back(member.task);
+    together.first = synchronised_->firstIdent();
+    return together;
 }
 
 void MotionDriver::setSpeedLimits(const motion::SpeedLimits& most) {

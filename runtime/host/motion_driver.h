@@ -226,6 +226,9 @@ class MotionDriver final : public SteppedArm {
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
     bool isBackward() const { return backward_; }
+    MovingTogether together() const override;
+    /// The task executes backwards a movement that it cannot make together with other tasks: it is to return kAgain.
+    bool refusesBackward(Task& task) const;
 
     /// Gets every sample from now on; must outlive the driver.
     void addTrace(TraceSink& trace) { traces_.push_back(&trace); }

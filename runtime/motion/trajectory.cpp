@@ -583,7 +583,10 @@ void Trajectory::standAt(double now, const PathPlace& place) {
 }
 
 void Trajectory::forgetBefore(double time, const PathPlace& place) {
-    while (entries_.size() > 1 && first_ < place.run && entries_.front().run->course().end() <= time) {
+    std::size_t oldest = place.run;
+    for (const auto& follower : followers_)
+        if (const auto asking = follower.lock()) oldest = std::min(oldest, asking->oldestRun_);
+    while (entries_.size() > 1 && first_ < oldest && entries_.front().run->course().end() <= time) {
         entries_.pop_front();
         ++first_;
     }

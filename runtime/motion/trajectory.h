@@ -130,9 +130,11 @@ class Trajectory {
     /// The arm is at a place, without having moved there (after braking off the path).
     virtual void standAt(double now, const PathPlace& place);
 
+    /// Drops the part before this time and place, except for runs that a follower still asks for.
     virtual void forgetBefore(double time, const PathPlace& place);
 
   protected:
+    std::size_t oldestRun_ = 0; ///< of a follower: the first one of its leader that it asks for
     JointTarget endTarget_;
 
   private:

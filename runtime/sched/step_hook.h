@@ -17,6 +17,9 @@ class StepHook {
     /// Called on the task's fibre when an error has been raised and a handler will take it, before anything is unwound. May
     /// stop the task; a negative status unwinds it.
     virtual Status handledErrorRaised(Task&, int) { return kOk; }
+    /// A movement that the task executes backwards has no \ID, or a different one than those of the other tasks. True: the step is
+    /// over, and the task is to return kAgain; its program pointer stays.
+    virtual bool refuseBackward(Task&) { return false; }
     /// An error while this hook leads a task back to where an earlier process stood (Task::reenter). A negative status.
     virtual Status failed(Task&) { return kUnwind; }
 

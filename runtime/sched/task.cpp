@@ -18,17 +18,17 @@
 namespace rt {
 namespace {
 
-/// The task is halted as long as this lives.
-class StandingHere {
+/// A value that holds as long as this lives: in waits, which those of trap routines may interrupt.
+template <class Value> class Meanwhile {
   public:
-    StandingHere(Standing& place, Standing here) : place_(place), before_(std::exchange(place, here)) {}
-    ~StandingHere() { place_ = before_; }
-    StandingHere(const StandingHere&) = delete;
-    StandingHere& operator=(const StandingHere&) = delete;
+    Meanwhile(Value& place, Value here) : place_(place), before_(std::exchange(place, here)) {}
+    ~Meanwhile() { place_ = before_; }
+    Meanwhile(const Meanwhile&) = delete;
+    Meanwhile& operator=(const Meanwhile&) = delete;
 
   private:
-    Standing& place_;
-    Standing before_;
+    Value& place_;
+    Value before_;
 };
 
 TaskKind kindFrom(const char* type) {
@@ -216,7 +216,9 @@ void Task::countAgain(Time& deadline, Time span, uint64_t& starts) const {
 }
 
 Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
-    const StandingHere standing(standing_, Standing::InWait);
+    const Meanwhile standing(standing_, Standing::InWait);
+    const Meanwhile<const Frame*> meeting(meeting_, spec.isMeeting ? frame : nullptr);
+    if (spec.isMeeting) takingBack_ = takenBack_ = false;
     flushHandledWarning();
     Time deadline = spec.deadline;
     const Time span = deadline == kNever ? 0 : std::max<Time>(deadline - now(), 0);
@@ -230,6 +232,10 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
         if (spec.condition ? spec.condition() : notified) {
             result = WaitResult::Done;
             return kOk;
+        }
+        if (spec.isMeeting && std::exchange(takingBack_, false)) {
+            takenBack_ = true;
+            return kAgain;
         }
         if (now() >= deadline) {
             result = WaitResult::Timeout;
@@ -256,6 +262,11 @@ Status Task::waitFor(const WaitSpec& spec, WaitResult& result) {
         waitingOn_.clear();
         if (status < 0) return status;
     }
+}
+
+void Task::takeBack() {
+    takingBack_ = true;
+    if (state_ == TaskState::Waiting) scheduler_.makeReady(*this);
 }
 
 Status Task::waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result) {
@@ -379,7 +390,7 @@ int32_t Task::step(Frame* at) {
         const int32_t here = at->statement, next = guide_->beforeStatement(*this, at);
         if (guide_ != nullptr || next != here) return next;
     }
-    const StandingHere standing(standing_, Standing::AtStatement);
+    const Meanwhile standing(standing_, Standing::AtStatement);
     if (budget < 0) {
         if (const Status status = safepoint(at); status < 0) return status;
     }
@@ -438,7 +449,7 @@ Status Task::stopHere(const char* instruction, bool allNormal, StopCause cause) 
     events_.owe(SystemEvent::Stop);
     host_.taskStopped(*this);
     if (allNormal) host_.stopNormalTasks(StopCause::Order);
-    const StandingHere standing(standing_, Standing::AfterStop);
+    const Meanwhile standing(standing_, Standing::AfterStop);
     return suspendStopped();
 }
 

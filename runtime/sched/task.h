@@ -111,6 +111,9 @@ struct WaitSpec {
     Time pollPeriod = 0;
     /// Asked each time before the task waits on. None, or no function: nothing outside can end the wait.
     std::function<std::optional<OutsideWait>()> outside = {};
+    /// The task waits until others are at the same place of their programs, and its instruction has no effect until then: see
+    /// Task::takeBack.
+    bool isMeeting = false;
 };
 
 /// The interface of a task to the controller it belongs to (so that tasks can be tested without one).
@@ -206,6 +209,12 @@ class Task : public TaskCore {
     Status sleepUntil(Time time);
     Status sleepFor(Time span);
     Status waitFor(const WaitSpec& spec, WaitResult& result);
+    /// Waits for other tasks at an instruction that has had no effect yet, and can execute it again (stepping profile).
+    bool isMeeting() const { return meeting_ != nullptr && meeting_ == frame && canExecuteAgain(); }
+    /// Ends that wait when the task executes next, unless the others have come: it is before its instruction again.
+    void takeBack();
+    /// Whether this has happened; once.
+    bool claimTakenBack() { return std::exchange(takenBack_, false); }
     /// Waits until the file descriptor is ready for `pollEvents` (POLLIN, POLLOUT of poll(2)). Virtual time
     /// keeps pace with the wall clock meanwhile. For sockets and the terminal only: files are ready at once.
     Status waitExternal(int fd, short pollEvents, Time deadline, WaitResult& result);
@@ -471,6 +480,8 @@ class Task : public TaskCore {
     InterruptTable interrupts_{*this};
     EventRoutines events_{*this};
     const Task* foreground_ = nullptr;
+    const Frame* meeting_ = nullptr; // whose instruction waits for other tasks
+    bool takingBack_ = false, takenBack_ = false;
     bool pointerMoved_ = false, pointerMovedToMain_ = false; // since the last stop
     std::map<const void*, std::shared_ptr<void>> locals_;
 

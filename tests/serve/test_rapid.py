@@ -255,6 +255,30 @@ class Execution(RapidCase):
                 self.assertEqual(each.get(path).status, 200, path)
 
 
+class StepsTogether(RapidCase):
+    """Two robots between SyncMoveOn and SyncMoveOff."""
+    MODULE = program("together1.modx")
+    OPTIONS = (*RapidCase.OPTIONS, "--task=T_ROB2=" + os.path.join(os.path.dirname(__file__), "programs", "together2.modx"))
+
+    def line(self, client, task):
+        entries = client.get(f"/rw/rapid/tasks/{task}/pcp").entries("pcp-info")
+        return int(next(entry for entry in entries if entry.title == "progpointer").values["beginposition"].split(",")[0])
+
+    def test_step_back(self):
+        """Decision 131: one stepback is one step of each task; those whose robots move together come back together."""
+        for client in self.masters():
+            self.assertEqual(client.act("/rw/rapid/execution", "resetpp").status, 204)
+            self.assertEqual(self.start(client).status, 204)
+            stop = program("together1.modx").splitlines().index("    Stop \\AllMoveTasks;") + 1
+            self.wait_stopped(client)
+            # The pointers go above the third movement; the next step moves the robots. Both modules have the movements in the same lines.
+            for line in (stop - 2, stop - 3):
+                self.assertEqual(self.start(client, execmode="stepback").status, 204)
+                self.wait_stopped(client)
+                for task in ("T_ROB1", "T_ROB2"):
+                    self.eventually(lambda: self.line(client, task) == line, message=f"{task} is not in line {line}")
+
+
 class Modules(RapidCase):
     MODULE = MODULE
     FILES = {"Sys.sysx": "MODULE Sys(SYSMODULE)\n  PERS num x := 1;\nENDMODULE\n"}

@@ -120,6 +120,12 @@ Refusal VirtualController::start(ExecutionMode mode, rt::Task* task) {
     }
     Refusal refusal = "there is no task to start";
     rt::Debugger& debugger = core_->debugger();
+    if (mode == ExecutionMode::StepBack && task == nullptr) {
+        std::vector<rt::Task*> stopped;
+        for (const auto& one : core_->tasks())
+            if (isNormal(*one) && isTaskActive(*one) && one->isStopped()) stopped.push_back(one.get());
+        return stopped.empty() ? refusal : debugger.stepBackward(stopped);
+    }
     for (const auto& one : core_->tasks()) {
         if (task != nullptr ? one.get() != task : !isNormal(*one) || !isTaskActive(*one)) continue;
         if (!one->isStopped()) {

@@ -169,11 +169,13 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     if (const Status status = requireMotionTask(task)) return status;
     Task& owner = taskOf(task);
     if (command.ident != motion::kNoIdent && owner.controller().motions().size() > 1 &&
-        motionOf(task).synchronised() == nullptr)
+        motionOf(task).synchronised() == nullptr) {
+        if (motionOf(task).refusesBackward(owner)) return kAgain;
         return owner.fatal(
             static_cast<int>(EventId::SyncMisused),
             "A movement instruction with \\ID is not between SyncMoveOn and SyncMoveOff. Remove "
             "\\ID, or synchronise the tasks first.");
+    }
     MotionState& state = motionState(task);
     if (args.t && !(*args.t > 0)) return fail(task, err::ERR_ARGVALERR, "\\T must be a time above 0 s");
     if (const Status status = checkConcurrent(task, state, args.conc)) return status;

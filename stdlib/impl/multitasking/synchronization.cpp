@@ -143,6 +143,7 @@ Status meet(Task& owner, const Handle* syncId, const Meeting& meeting) {
     const Presence presence(points, arrival);
     points.releaseIfComplete(arrival, meeting.whenComplete);
     WaitSpec spec{{&points.changed}, [&arrival] { return arrival.released; }};
+    spec.isMeeting = true;
     if (meeting.timeOut != nullptr)
         spec.deadline = addTime(owner.now(), fromSeconds(std::max(0.0F, *meeting.timeOut)));
     WaitResult result = WaitResult::Done;

@@ -307,6 +307,28 @@ def test_several_tasks(a):
     equal(sorted(a.run_out()), ["a ends", "b ends"])
 
 
+def test_step_back_together(a):
+    """Contract 13, decision 131: a step back of one thread is one of all threads whose robots move together."""
+    last = line_of("together_a.modx", "! end")
+    a.start("together_a.modx", [last], tasks=["T_ROB2=" + path("together_b.modx")])
+    a.stopped("breakpoint", last)
+    threads = {t["name"]: t["id"] for t in a.ask("threads")["threads"]}
+    lines = lambda: [a.ask("stackTrace", threadId=threads[name])["stackFrames"][0]["line"] for name in ("T_ROB1", "T_ROB2")]
+    a.go("stepBack", thread=threads["T_ROB2"])
+    equal(a.stopped("step")["threadId"], threads["T_ROB2"])
+    equal(lines(), [line_of("together_a.modx", "! 2"), line_of("together_b.modx", "! 2")])
+    a.go("stepBack", thread=threads["T_ROB2"])
+    equal(a.stopped("step")["threadId"], threads["T_ROB2"])
+    equal(lines(), [line_of("together_a.modx", "! 1"), line_of("together_b.modx", "! 1")])
+    a.go("reverseContinue", thread=threads["T_ROB1"])  # to the first synchronised movement, which SyncMoveOn lies before
+    a.stopped("step")
+    equal(lines(), [line_of("together_a.modx", "! on"), line_of("together_b.modx", "! on")])
+    a.refused("stepBack", threadId=threads["T_ROB1"])
+    a.set_lines("together_a.modx", [])
+    a.go()
+    equal(sorted(a.run_out()), ["a ends", "b ends"])
+
+
 def test_background_task(a):
     """A STATIC task is a thread as well: it stops at breakpoints and can be stepped."""
     line_b = line_of("two_b.modx", "! b")
