@@ -102,7 +102,7 @@ bool isSameDetail(const std::string& a, const std::string& b) {
     return a == b;
 }
 
-/// What a name may leave out of the full one.
+/// Parts of the full name that a name may leave out.
 struct Shortened {
     bool family = false;  ///< the end: "1660" for "1660ID"
     bool figures = false; ///< the last decimals: "0.5" for "0.559"

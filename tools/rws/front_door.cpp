@@ -194,7 +194,8 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
         }
         visit.cookies.emplace_back("Set-Cookie",
                                    fmt::format("{}={}; path=/; httponly", kSessionCookie, session->cookie));
-        visit.cookies.emplace_back("Set-Cookie", fmt::format("{}={}; path=/; httponly", kContextCookie, session->abbcx));
+        visit.cookies.emplace_back("Set-Cookie",
+                                   fmt::format("{}={}; path=/; httponly", kContextCookie, session->abbcx));
     }
     if (!Sessions::countRequest(*session))
         return errorResponse(503, "too many requests within a second", Form::Xhtml,

@@ -43,7 +43,8 @@ Sessions::LoggedOn* Sessions::ofConnection(uint64_t connection, std::string_view
 
 Sessions::LoggedOn* Sessions::ofContext(std::string_view abbcx, std::string_view user, Dialect dialect) {
     for (auto& [number, each] : sessions_)
-        if (each.abbcx == abbcx && each.session->user == user && each.session->dialect == dialect) return &each;
+        if (each.abbcx == abbcx && each.session->user == user && each.session->dialect == dialect)
+            return &each;
     return nullptr;
 }
 
