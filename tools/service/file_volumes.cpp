@@ -66,7 +66,7 @@ bool statusOf(const VolumePlace& place, struct stat& status) {
 } // namespace
 
 bool isPlainFileName(std::string_view name) {
-    return isBareName(name) && name.size() <= 200 && name.front() != '.' &&
+    return isBareName(name) && name.size() <= 80 && name.front() != '.' &&
            name.find_first_of(":$") == std::string_view::npos;
 }
 

@@ -36,7 +36,7 @@ struct FileEntry {
     int64_t created = 0, modified = 0; ///< seconds since 1970
 };
 
-/// A name for a new file of programs and modules: without folder, volume and control characters, not hidden, at most 200 bytes.
+/// A name for a new file of programs and modules: without folder, volume and control characters, not hidden, at most 80 bytes.
 bool isPlainFileName(std::string_view name);
 
 /// A path in a volume: "$HOME/part/a.mod". The volume's name in any case, with or without '$'.
