@@ -113,12 +113,13 @@ Debugger::BackwardPlan Debugger::planBackward(Task& task, const State& state, Fr
     const auto refused = [](std::string problem) {
         return BackwardPlan{std::move(problem), BackwardPlan::Kind::Moves, -1, false};
     };
-    plan.kind = BackwardPlan::Kind::Continues;
-    if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr) return plan;
+    if ((statement.flags & kStmtInBackward) != 0 && state.backwardFrame != nullptr) {
+        plan.kind = BackwardPlan::Kind::Continues;
+        return plan;
+    }
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
         return refused("instructions of a handler cannot be executed backwards");
     if (std::string problem = refusalOfSync(task); !problem.empty()) return refused(std::move(problem));
-    plan.kind = BackwardPlan::Kind::Moves;
     if (!state.backwardLast) {
         const int32_t movement = lastMovement(host_.arm(task).pointer(), *at);
         plan.statement = row(*at, movement >= 0 ? movement : at->statement).previous;

@@ -25,21 +25,19 @@ const CfgInstance* instanceNamed(const std::vector<const CfgInstance*>& instance
 }
 
 robot::Pose baseFrameOf(const CfgInstance& instance, const robot::Pose& otherwise) {
-    const auto belongs = [](const rapid::config::CfgAttribute& attribute) {
-        return rapid::config::beginsWithName(attribute.name, "base_frame_pos") ||
-               rapid::config::beginsWithName(attribute.name, "base_frame_orient");
-    };
-    if (std::none_of(instance.attributes.begin(), instance.attributes.end(), belongs)) return otherwise;
     robot::Pose base;
+    bool isGiven = false;
     double* const position[] = {&base.pos.x, &base.pos.y, &base.pos.z};
     for (int i = 0; i < 3; ++i) {
         double metres = 0;
-        if (instance.number(fmt::format("base_frame_pos_{}", "xyz"[i]), metres))
-            *position[i] = metres * robot::kMmPerMetre;
+        if (!instance.number(fmt::format("base_frame_pos_{}", "xyz"[i]), metres)) continue;
+        *position[i] = metres * robot::kMmPerMetre;
+        isGiven = true;
     }
     double* const q[] = {&base.rot.w, &base.rot.x, &base.rot.y, &base.rot.z};
     for (int i = 0; i < 4; ++i)
-        instance.number(fmt::format("base_frame_orient_u{}", i), *q[i]);
+        isGiven = instance.number(fmt::format("base_frame_orient_u{}", i), *q[i]) || isGiven;
+    if (!isGiven) return otherwise;
     base.rot = robot::normalized(base.rot);
     return base;
 }

@@ -430,10 +430,12 @@ void Controller::actionStep(bool forward) {
         if (isNormal(task) && task->isStopped() && task->state() != TaskState::Finished &&
             isTaskActive(*task))
             stopped.push_back(task.get());
-    if (!forward) (void)debugger_.stepBackward(stopped); // it reports itself
-    for (Task* task : stopped) {
-        const std::string problem = forward ? debugger_.stepIn(*task, true) : "";
-        if (!problem.empty()) log_.write(EventId::StepRefused, task, {"Stepping forward", problem});
+    if (forward) {
+        for (Task* task : stopped)
+            if (const std::string problem = debugger_.stepIn(*task, true); !problem.empty())
+                log_.write(EventId::StepRefused, task, {"Stepping forward", problem});
+    } else {
+        (void)debugger_.stepBackward(stopped); // it reports itself
     }
     if (stopped.empty())
         log_.write(EventId::NothingStopped, nullptr, {forward ? "step_forward" : "step_backward", "stopped"});

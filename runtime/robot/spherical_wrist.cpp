@@ -170,9 +170,10 @@ bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, dou
     };
     const double elbowDeg = modelAngle(seed, 2) + plane_.angleDeg;
     const double within = elbowDeg - 360 * std::round(elbowDeg / 360);
-    if (isNear((within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0))) return true;
+    const int forward = (within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0);
+    if (isNear(forward)) return true;
     const int own = configuration(seed).cfx;
-    if (isNear(own)) return true;
+    if (own != forward && isNear(own)) return true;
     IkBranches branches;
     inverseAll(flange, seed, armAngleDeg, branches);
     // The elbow cannot change along a path, for that takes the stretched arm; shoulder and wrist can be

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kUnitTolerance = 0.01; // of quaternions that were rounded on their way
 constexpr int kRobotAxes = 6;           // of a message
-constexpr int kMostNumbers = 40;        // of RAPID data
 
 // ---- EgmRobot ----------------------------------------------------------------------------------------------------
 
@@ -108,7 +107,7 @@ std::string targetProblem(const egm::EgmPlace& planned, GuidanceMode mode) {
 
 void takeRapidData(const egm::EgmRapidData& from, SensorData& data) {
     if (from.has_digval()) data.digital = from.digval();
-    const int count = std::min(from.dnum_size(), kMostNumbers);
+    const int count = std::min(from.dnum_size(), static_cast<int>(kMostRapidNumbers));
     data.numbers.assign(from.dnum().begin(), from.dnum().begin() + count);
 }
 

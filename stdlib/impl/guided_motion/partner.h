@@ -12,6 +12,8 @@
 
 namespace rt::lib {
 
+inline constexpr std::size_t kMostRapidNumbers = 40; ///< RAPID data of a message
+
 enum class GuidanceMode : uint8_t { Joint, Pose, PathCorrection };
 
 /// The target of a partner. Parts that are absent keep their last value.

@@ -10,8 +10,6 @@
 namespace rt::lib {
 namespace {
 
-constexpr std::size_t kLargestArray = 40; // of a message
-
 /// The elements of the array; none when it is not there any more.
 std::span<double> numbersOf(const Task& task, const std::string& name) {
     if (name.empty()) return {};
@@ -19,7 +17,7 @@ std::span<double> numbersOf(const Task& task, const std::string& name) {
     if (found.data == nullptr || found.type->kind != DescKind::Array ||
         found.type->fields[0]->kind != DescKind::Dnum)
         return {};
-    return {static_cast<double*>(found.data), std::min<std::size_t>(found.type->count, kLargestArray)};
+    return {static_cast<double*>(found.data), std::min<std::size_t>(found.type->count, kMostRapidNumbers)};
 }
 
 } // namespace

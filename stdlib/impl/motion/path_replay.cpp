@@ -73,8 +73,8 @@ Status rt_PathRecMoveBwd(TaskCore* task, Handle* ID, const data::Pos* ToolOffs,
     Task& owner = taskOf(task);
     const auto goal = recorderOf(task).goalBack(lib::motionSystemOf(task), idOf(ID));
     if (!goal)
-        return recorderMisused(
-            task, "PathRecMoveBwd: there is no recorded path back to there (see PathRecValidBwd).");
+        return recorderMisused(task,
+                               "PathRecMoveBwd: no path back to there is recorded (see PathRecValidBwd).");
     return recorderOf(task).moveBack(owner, *goal, mannerOf(ToolOffs, Speed));
 }
 

@@ -15,7 +15,7 @@ export function whileHeld(item: HTMLElement, begin: () => void, end: () => void)
         if (!event.repeat) begin();
     });
     item.addEventListener("keyup", (event) => keys.includes(event.key) && end());
-    item.addEventListener("contextmenu", (event) => event.preventDefault()); // a long touch is no menu
+    item.addEventListener("contextmenu", (event) => event.preventDefault()); // a long touch must not open a menu
 }
 
 /** Calls `action` when the page is left: its window loses the focus, or it is hidden. */
