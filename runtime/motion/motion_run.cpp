@@ -239,7 +239,7 @@ MotionState MotionSystem::Impl::stateOn(const Trajectory& trajectory, const Span
     if (state.moving && moment.speed != 0) {
         double rate = 0;
         state.jointSpeed = Joints::zeros(state.joints.size());
-        trajectory.ratesAt(moment.place, state.jointSpeed, rate);
+        trajectory.ratesAt(moment.place, {state.joints, state.extax}, state.jointSpeed, rate);
         for (double& speed : state.jointSpeed)
             speed *= moment.speed;
         state.tcpSpeed = rate * std::abs(moment.speed);

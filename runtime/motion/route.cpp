@@ -322,6 +322,18 @@ bool Route::layStretches(double from) {
     return true;
 }
 
+std::optional<double> Route::curveRate(std::size_t own, bool inCorner) const {
+    if (inCorner) return corner(own).kind == CornerKind::Space ? std::optional(1.0) : std::nullopt;
+    const Leg& l = leg(own);
+    if (!l.path->isCartesian()) return {};
+    return l.length() > 0 ? 1 / l.perMm : 0;
+}
+
+std::optional<double> Route::curveRateAt(double place) const {
+    const std::size_t own = ownLeg(place);
+    return curveRate(own, place > leg(own).end() && isRounded(own));
+}
+
 bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const double middle = 0.5 * (stretch.begin + stretch.end);
     const double step = 0.25 * (stretch.end - stretch.begin);
@@ -341,10 +353,8 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     const Pose before = beforeTcp ? *beforeTcp : tcpOf(frames, low, middle - step);
     const Pose here = hereTcp ? *hereTcp : tcpOf(frames, stretch.middle, middle);
     const Pose after = afterTcp ? *afterTcp : tcpOf(frames, high, middle + step);
-    if (inCorner && corner(own).kind == CornerKind::Space) {
-        stretch.tcpRate = 1;
-    } else if (!inCorner && l.path->isCartesian()) {
-        stretch.tcpRate = l.length() > 0 ? 1 / l.perMm : 0;
+    if (const auto rate = curveRate(own, inCorner)) {
+        stretch.tcpRate = *rate;
     } else { // at the middle, since a chord is shorter than the path in a sharp bend
         const double close = std::min(step, 1e-3);
         const auto tcpNear = [&](double place) {

@@ -97,6 +97,8 @@ class Route {
     void setCarrier(std::function<Pose(double)> carrier) { carrier_ = std::move(carrier); }
     /// TCP in the object frame for a point at that place.
     Pose tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const;
+    /// mm of TCP path for a mm of route, where the curve is one of the TCP; nothing where axes are interpolated.
+    std::optional<double> curveRateAt(double place) const;
     const std::deque<RouteStretch>& stretches() const { return stretches_; }
     /// Index of the stretch that contains the place.
     std::size_t stretchAt(double place) const;
@@ -112,6 +114,7 @@ class Route {
 
     const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
     std::size_t ownLeg(double place) const;
+    std::optional<double> curveRate(std::size_t own, bool inCorner) const;
     /// `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known without the angles.
     RoutePoint pointAt(double place, const Joints& seed, std::optional<Pose>* tcp = nullptr) const;
     RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed,

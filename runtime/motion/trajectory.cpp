@@ -523,22 +523,24 @@ RoutePoint Trajectory::pointAt(const PathPlace& place) const {
     return e.run->route().at(place.s);
 }
 
-void Trajectory::ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const {
+void Trajectory::ratesAt(const PathPlace& place, const RoutePoint& here, Joints& first, double& tcpRate) const {
     std::fill(first.begin(), first.end(), 0.0);
     tcpRate = 0;
     if (isPause(place.run)) return;
     const Route& way = route(place.run);
-    constexpr double kStep = 1e-3; // mm
-    const double low = std::max(0.0, place.s - kStep);
-    const double high = std::min(way.length(), place.s + kStep);
-    const RoutePoint before = way.at(low);
-    const RoutePoint after = way.at(high);
+    constexpr double kStep = 2e-4; // mm
+    const double from = std::clamp(place.s, 0.0, way.length());
+    const double to = from + (from + kStep <= way.length() ? kStep : -kStep);
+    const RoutePoint near = way.at(to);
     for (std::size_t i = 0; i < first.size(); ++i)
-        first[i] = (after.joints[i] - before.joints[i]) / (high - low);
+        first[i] = (near.joints[i] - here.joints[i]) / (to - from);
+    if (const auto rate = way.curveRateAt(from)) {
+        tcpRate = *rate;
+        return;
+    }
     const FrameSetup& frames = framesAt(place);
-    const Vec3 from = way.tcpOf(frames, before, low).pos;
-    const Vec3 to = way.tcpOf(frames, after, high).pos;
-    tcpRate = norm(to - from) / (high - low);
+    const Vec3 difference = way.tcpOf(frames, near, to).pos - way.tcpOf(frames, here, from).pos;
+    tcpRate = norm(difference) / std::abs(to - from);
 }
 
 const FrameSetup& Trajectory::framesAt(const PathPlace& place) const {

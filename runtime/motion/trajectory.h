@@ -109,8 +109,9 @@ class Trajectory {
     virtual PathPlace legStart(const LegRef& leg) const;
     virtual PathPlace legEnd(const LegRef& leg) const;
     virtual RoutePoint pointAt(const PathPlace& place) const;
-    /// Derivatives of the axes by the place, deg/mm, and mm of TCP path per mm. `first` has a component for each axis.
-    void ratesAt(const PathPlace& place, Joints& first, double& tcpRate) const;
+    /// Derivatives of the axes by the place, deg/mm, and mm of TCP path per mm. `first` has a component for each axis; `here` is
+    /// pointAt(place).
+    void ratesAt(const PathPlace& place, const RoutePoint& here, Joints& first, double& tcpRate) const;
     /// Frames of the move the place belongs to.
     virtual const FrameSetup& framesAt(const PathPlace& place) const;
     virtual PathPlace end() const;
