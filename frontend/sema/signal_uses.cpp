@@ -350,11 +350,16 @@ void SignalFinder::gatherSignalUses(const RoutineSymbol& routine, std::span<Argu
     size_t next = nextRequired(routine, 0);
     const Type* partner = nullptr; // AliasIO(name, signal): a signal of that type
     for (const Argument* a : args) {
-        if (!a->value || a->value->kind != NodeKind::Name || !routine.predefined) continue;
-        DataSymbol* data = asData(scopes_.lookupOutside(idOf(as<NameExpr>(*a->value).name)));
-        if (!data || data->storage != Storage::ModuleData) continue;
-        data_.ensureData(*data);
-        if (data->type.type->kind == TypeKind::SemiValue) partner = data->type.type;
+        if (!a->value || !routine.predefined) continue;
+        const Expr* place = a->value; // a variable, or one of an array
+        while (place->kind == NodeKind::Index)
+            place = as<IndexExpr>(*place).base;
+        if (place->kind != NodeKind::Name || !isName(as<NameExpr>(*place).name)) continue;
+        const NameId name = idOf(as<NameExpr>(*place).name);
+        const DataSymbol* data = asData(scopes_.lookupOutside(name));
+        if (!own_.contains(name) && (!data || data->storage != Storage::ModuleData)) continue;
+        const Type* type = looseType(*a->value);
+        if (type && type->kind == TypeKind::SemiValue) partner = type;
     }
     for (const Argument* a : args) {
         const DataSymbol* param = nullptr;
