@@ -113,7 +113,7 @@ std::vector<MechanicalUnits::RobotPlan> MechanicalUnits::planRobots(const CfgLoo
     const auto planned = [&](const std::string& name) -> RobotPlan& {
         for (RobotPlan& plan : plans)
             if (sameName(plan.name, name)) return plan;
-        plans.push_back({name, {}, nullptr, false});
+        plans.push_back({name, {}, nullptr});
         return plans.back();
     };
     for (const CfgInstance* instance : configuration("MOC", "ROBOT")) {
@@ -136,9 +136,13 @@ std::vector<MechanicalUnits::RobotPlan> MechanicalUnits::planRobots(const CfgLoo
         while (plans.size() < needed)
             planned(fmt::format("ROB_{}", plans.size() + 1));
     RobotPlan& first = firstRobot(configuration, plans);
-    if (first.model.empty()) first.model = defaultModel;
-    for (RobotPlan& plan : plans)
-        if (plan.model.empty()) plan.model = first.model;
+    first.isAssumed = first.model.empty();
+    if (first.isAssumed) first.model = defaultModel;
+    for (RobotPlan& plan : plans) {
+        if (!plan.model.empty()) continue;
+        plan.model = first.model;
+        plan.isAssumed = first.isAssumed;
+    }
     return plans;
 }
 
@@ -178,6 +182,7 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         MotionGroup group;
         group.robot = plan.name;
         group.model = *model;
+        group.isModelAssumed = plan.isAssumed;
         if (plan.instance != nullptr)
             group.model.baseFrame = baseFrameOf(*plan.instance, group.model.baseFrame);
         applyBounds(configuration("MOC", "ARM"), groups_.size(), group.model);

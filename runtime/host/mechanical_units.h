@@ -44,6 +44,7 @@ struct MotionGroup {
     std::string name;  ///< of MECHANICAL_UNIT_GROUP; "" without one
     std::string robot; ///< name of the unit with a TCP; "" for a group of external units alone
     robot::RobotModel model;
+    bool isModelAssumed = false;   ///< neither configuration nor command line names one
     motion::MotionOptions options; ///< external axes and what moves the base of the robot
 };
 
@@ -79,7 +80,8 @@ class MechanicalUnits {
     struct RobotPlan {
         std::string name, model;
         const CfgInstance* instance = nullptr;
-        bool isAsked = false; // by --robot
+        bool isAsked = false;   // by --robot
+        bool isAssumed = false; // the default model
     };
     std::vector<RobotPlan> planRobots(const CfgLookup& configuration, const std::vector<std::string>& robots,
                                       std::string_view defaultModel, std::size_t needed) const;

@@ -206,7 +206,7 @@ Status orderMove(TaskCore* task, motion::MoveCommand command, const MoveArgument
     const Status status =
         owner.controller().motion(owner).order(owner, std::move(command), id, error, std::move(actions));
     if (status != kOk) return status;
-    if (error) return fail(task, motionErrno(*error), error->message());
+    if (error) return failMotion(task, *error);
     state.tool = *args.tool;
     state.workObject = *workObject;
     return kOk;

@@ -160,7 +160,7 @@ Status PathRecorder::order(Task& task, motion::MoveCommand command, motion::Move
     const Status status = task.controller().motion(task).order(task, std::move(command), id, error);
     replaying_ = false;
     if (status != kOk) return status;
-    return error ? fail(&task, motionErrno(*error), error->message()) : kOk;
+    return error ? failMotion(&task, *error) : kOk;
 }
 
 Status PathRecorder::moveBack(Task& task, std::size_t goal, const Manner& manner) {

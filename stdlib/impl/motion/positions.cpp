@@ -119,9 +119,8 @@ Status rt_CalcJointT(TaskCore* task, data::Jointtarget* result, bool UseCurWObjP
     const auto joints = system.toJointTarget(target, frames);
     if (ErrorNumber) *ErrorNumber = 0;
     if (joints) return lib::give(task, result, lib::toJointtarget(*joints, system.kinematics()));
-    const Status number = lib::motionErrno(joints.error());
-    if (!ErrorNumber) return lib::fail(task, number, joints.error().message());
-    *ErrorNumber = static_cast<float>(number);
+    if (!ErrorNumber) return lib::failMotion(task, joints.error());
+    *ErrorNumber = static_cast<float>(lib::motionErrno(joints.error()));
     *result = {};
     return kOk;
 }

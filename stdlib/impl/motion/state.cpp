@@ -13,7 +13,9 @@
 
 #include "stdlib_constants.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace rt::lib {
@@ -145,6 +147,20 @@ Status motionErrno(const motion::MotionError& error) {
     case Kind::QueueFull: return err::ERR_OUTSIDE_REACH;
     }
     return err::ERR_OUTSIDE_REACH;
+}
+
+Status failMotion(TaskCore* task, const motion::MotionError& error) {
+    using Kind = motion::MotionErrorKind;
+    constexpr Kind kOfTheModel[] = {Kind::Unreachable, Kind::JointOutOfRange, Kind::NoSuchConfiguration,
+                                    Kind::ConfigurationMismatch, Kind::Singularity};
+    const Status number = motionErrno(error);
+    const MotionDriver& driver = motionOf(task);
+    const bool dependsOnModel =
+        std::find(std::begin(kOfTheModel), std::end(kOfTheModel), error.kind) != std::end(kOfTheModel);
+    if (!driver.isModelAssumed() || !dependsOnModel) return fail(task, number, error.message());
+    return fail(task, number,
+                fmt::format("{}; no robot is given, so this is the {}: name yours with --robot",
+                            error.message(), driver.model().name));
 }
 
 } // namespace rt::lib

@@ -85,5 +85,7 @@ motion::ExternalAxes toAxes(const data::Extjoint& axes);
 
 /// The ERRNO for a target that cannot be reached or a move that cannot be made.
 Status motionErrno(const motion::MotionError& error);
+/// Raises it in the task. When no robot was named, the message names the model in use and the option that selects one.
+Status failMotion(TaskCore* task, const motion::MotionError& error);
 
 } // namespace rt::lib
