@@ -67,9 +67,9 @@ Status rt_SpeedLimAxis(TaskCore* task, Handle* MechUnit, float AxisNo, float Axi
         if (axis < 0) return status;
         limit = &limits.external[static_cast<std::size_t>(axis)];
     }
-    if (!(AxisSpeed > 0))
-        return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimAxis: the limit must be above 0");
-    *limit = AxisSpeed;
+    if (!(AxisSpeed >= 0))
+        return lib::fail(task, err::ERR_SPEEDLIM_VALUE, "SpeedLimAxis: the limit must not be negative");
+    *limit = AxisSpeed > 0 ? AxisSpeed : motion::SpeedLimits::kNone;
     lib::motionState(task).speedLimits = limits;
     lib::motionOf(task).setSpeedLimits(limits);
     return kOk;
