@@ -128,8 +128,8 @@ Status frameType(TaskCore* task, float type, int& result) {
 extern "C" {
 
 Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
-                      data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, Handle* DIFromSensor,
-                      double* DataToSensor, int32_t, double* DataFromSensor, int32_t,
+                      data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, double* DataToSensor,
+                      int32_t, Handle* DIFromSensor, double* DataFromSensor, int32_t,
                       const data::Egm_minmax* J1, const data::Egm_minmax* J2, const data::Egm_minmax* J3,
                       const data::Egm_minmax* J4, const data::Egm_minmax* J5, const data::Egm_minmax* J6,
                       const data::Egm_minmax* J7, const float* LpFilter, const float* SampleRate,
@@ -148,13 +148,13 @@ Status rt_EGMActJoint(TaskCore* task, Handle* EGMid, bool StreamStart, data::Too
 }
 
 Status rt_EGMActPose(TaskCore* task, Handle* EGMid, bool StreamStart, data::Tooldata* Tool,
-                     data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, Handle* DIFromSensor,
-                     double* DataToSensor, int32_t, double* DataFromSensor, int32_t,
-                     const data::Pose* CorrFrame, float CorrFrType, const data::Pose* SensorFrame,
-                     float SensorFrType, const data::Egm_minmax* x, const data::Egm_minmax* y,
-                     const data::Egm_minmax* z, const data::Egm_minmax* rx, const data::Egm_minmax* ry,
-                     const data::Egm_minmax* rz, const float* LpFilter, const float* SampleRate,
-                     const float* MaxPosDeviation, const float* MaxSpeedDeviation) {
+                     data::Wobjdata* WObj, data::Loaddata*, Handle* DOToSensor, double* DataToSensor, int32_t,
+                     Handle* DIFromSensor, double* DataFromSensor, int32_t, const data::Pose* CorrFrame,
+                     float CorrFrType, const data::Pose* SensorFrame, float SensorFrType,
+                     const data::Egm_minmax* x, const data::Egm_minmax* y, const data::Egm_minmax* z,
+                     const data::Egm_minmax* rx, const data::Egm_minmax* ry, const data::Egm_minmax* rz,
+                     const float* LpFilter, const float* SampleRate, const float* MaxPosDeviation,
+                     const float* MaxSpeedDeviation) {
     Status status = kOk;
     EgmProcess* process = connectedProcess(task, *EGMid, GuidanceMode::Pose, status);
     if (process == nullptr) return status;
