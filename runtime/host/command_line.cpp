@@ -49,9 +49,29 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
 /// The command of rapidc with an option that executables lack, because it concerns compiling or needs the compiler; "" if none.
 std::string commandForExecutable(const std::string& option) {
     static constexpr std::pair<const char*, const char*> kOptions[] = {
-        {"--task", "build"},     {"--assume-signals", "build"}, {"--no-optimise", "build"},
-        {"--stepping", "build"}, {"--strip", "build"},          {"-W", "build"},
-        {"--step", "run"},       {"--http-port", "serve"},
+        {"--task", "build"},
+        {"--assume-signals", "build"},
+        {"--no-optimise", "build"},
+        {"--stepping", "build"},
+        {"--strip", "build"},
+        {"--no-cache", "build"},
+        {"--output", "build"},
+        {"-o", "build"},
+        {"-W", "build"},
+        {"--step", "run"},
+        {"--no-stepping", "run"},
+        {"--http-port", "serve"},
+        {"--https-port", "serve"},
+        {"--web-port", "serve"},
+        {"--password", "serve"},
+        {"--password-file", "serve"},
+        {"--backup-dir", "serve"},
+        {"--certificate-dir", "serve"},
+        {"--system-dir", "serve"},
+        {"--temp", "serve"},
+        {"--motors-on", "serve"},
+        {"--no-program-start", "serve"},
+        {"--robotware", "serve"},
     };
     for (const auto& [name, command] : kOptions)
         if (option == name) return fmt::format("'rapidc {}'", command);
