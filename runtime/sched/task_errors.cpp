@@ -33,12 +33,6 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
-/// The error handler that took an error in this frame is in progress. Unlike inErrorHandler, this holds for every statement that
-/// the handler does not cover, whatever its kind.
-bool isInHandlerOf(const Frame& frame) {
-    return statementOf(frame) != nullptr && !coversStatement(frame);
-}
-
 /// The same for a record that may have been left.
 bool isInProgress(const Frame* from, const Frame* wanted) {
     int above = 0; // without one that lies below
@@ -439,7 +433,8 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    return inProgress && handled.frame->routine == handled.routine && isInHandlerOf(*handled.frame);
+    if (!inProgress || handled.frame->routine != handled.routine) return false;
+    return statementOf(*handled.frame) != nullptr && !coversStatement(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
