@@ -79,7 +79,7 @@ class Checker:
                 self.offence(f"{path.name}:{number}", "line is longer than 130 characters")
 
     def read(self, builtins):
-        """What stdlib_gen has read."""
+        """Takes over the declarations that stdlib_gen has read."""
         for entry in json.loads(builtins.read_text(encoding="utf-8")):
             key = entry["name"].lower()
             if entry["kind"] == "datatype":

@@ -104,7 +104,7 @@ Model readDeclarations(const std::vector<std::string>& paths);
 /// attribute.
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem);
 
-/// What breaks the rules of declarations beyond those of reading, as Model::errors: documentation (summary, parameters, result,
+/// Broken rules of declarations, each as in Model::errors: documentation (summary, parameters, result,
 /// errors), attributes that every routine has, names in `raises:` and `deferred:`, numbers of errors. Names in one declaration may
 /// be anywhere in the model.
 std::vector<std::string> brokenRules(const Model& model);

@@ -96,7 +96,8 @@ class Reader {
     void readDecl(const syn::Decl& decl) {
         if (decl.kind == syn::NodeKind::Data) enter(Stage::Data, decl);
         if (decl.kind == syn::NodeKind::Routine) enter(Stage::Routines, decl);
-        if (decl.kind == syn::NodeKind::Record || decl.kind == syn::NodeKind::Alias) enter(Stage::Types, decl);
+        if (decl.kind == syn::NodeKind::Record || decl.kind == syn::NodeKind::Alias)
+            enter(Stage::Types, decl);
         switch (decl.kind) {
         case syn::NodeKind::Record: readRecord(syn::as<syn::RecordDecl>(decl)); break;
         case syn::NodeKind::Alias: readAlias(syn::as<syn::AliasDecl>(decl)); break;

@@ -15,7 +15,7 @@ namespace {
 
 using rapid::config::lowerCase;
 
-/// What the `!!` lines of a routine say, by tag.
+/// The `!!` lines of a routine, by tag.
 struct Documented {
     std::vector<std::string> params, errors;
     std::string result; ///< empty: no text after @return
@@ -38,7 +38,8 @@ Documented documentedIn(const Doc& doc) {
         std::getline(words >> std::ws, rest);
         if (tag == "@param" && !rest.empty()) out.params.push_back(name);
         if (tag == "@error") out.errors.push_back(name);
-        if (tag == "@return" && out.result.empty()) out.result = bare(rest.empty() ? name : name + " " + rest);
+        if (tag == "@return" && out.result.empty())
+            out.result = bare(rest.empty() ? name : name + " " + rest);
     }
     return out;
 }
@@ -79,7 +80,8 @@ class Rules {
     void checkDatum(const Datum& datum) {
         checkSummary(datum.place, datum.name, "datum", datum.doc);
         if (datum.kind != "CONST") return;
-        if (datum.initText.empty()) fail(datum.place, datum.name, "is a constant without a value: add ':= value'");
+        if (datum.initText.empty())
+            fail(datum.place, datum.name, "is a constant without a value: add ':= value'");
         if (lowerCase(datum.type) != "errnum") return;
         errors_.insert(lowerCase(datum.name));
         constexpr double kLastOfPrograms = 90;
@@ -94,12 +96,14 @@ class Rules {
         checkSummary(routine.place, routine.name, "routine", routine.doc);
         for (const char* key : {"manual", "effects", "confidence"})
             if (routine.doc.get(key).empty())
-                fail(routine.place, routine.name, fmt::format("lacks '!@ {}:' (frontend/sema/builtin_words.def)", key));
+                fail(routine.place, routine.name,
+                     fmt::format("lacks '!@ {}:' (frontend/sema/builtin_words.def)", key));
         const Documented documented = documentedIn(routine.doc);
         checkParams(routine, documented);
         if (!routine.returnType.empty() && documented.result.empty())
             fail(routine.place, routine.name, "lacks '!! @return' with what it returns");
-        if (!documented.result.empty() && documented.result == bare(routine.doc.text.substr(0, routine.doc.text.find('\n'))))
+        if (!documented.result.empty() &&
+            documented.result == bare(routine.doc.text.substr(0, routine.doc.text.find('\n'))))
             fail(routine.place, routine.name, "'@return' repeats the summary");
         checkErrors(routine, documented);
     }
@@ -110,14 +114,18 @@ class Rules {
             names.insert(param.name);
             if (!lower.insert(lowerCase(param.name)).second)
                 fail(routine.place, routine.name, fmt::format("has two parameters '{}'", param.name));
-            if (std::find(documented.params.begin(), documented.params.end(), param.name) == documented.params.end())
-                fail(routine.place, routine.name, fmt::format("lacks '!! @param {}' with what it is", param.name));
+            if (std::find(documented.params.begin(), documented.params.end(), param.name) ==
+                documented.params.end())
+                fail(routine.place, routine.name,
+                     fmt::format("lacks '!! @param {}' with what it is", param.name));
         }
         for (const std::string& name : documented.params)
             if (!names.contains(name))
                 fail(routine.place, routine.name, fmt::format("'@param {}' names no parameter of it", name));
-        if (const std::string deferred = routine.doc.get("deferred"); !deferred.empty() && !names.contains(deferred))
-            fail(routine.place, routine.name, fmt::format("deferred: '{}' is not a parameter of it", deferred));
+        if (const std::string deferred = routine.doc.get("deferred");
+            !deferred.empty() && !names.contains(deferred))
+            fail(routine.place, routine.name,
+                 fmt::format("deferred: '{}' is not a parameter of it", deferred));
     }
 
     void checkErrors(const Routine& routine, const Documented& documented) {
@@ -128,10 +136,12 @@ class Rules {
         for (std::string name; words >> name;) {
             raised.insert(name);
             if (!errors_.contains(lowerCase(name)))
-                fail(routine.place, routine.name, fmt::format("raises: '{}' is not a constant of type errnum in stdlib/data", name));
+                fail(routine.place, routine.name,
+                     fmt::format("raises: '{}' is not a constant of type errnum in stdlib/data", name));
         }
         if (!raised.empty() && routine.doc.get("effects") == "const")
-            fail(routine.place, routine.name, "raises an error, which 'effects: const' excludes: write 'effects: pure'");
+            fail(routine.place, routine.name,
+                 "raises an error, which 'effects: const' excludes: write 'effects: pure'");
         const std::set<std::string> described(documented.errors.begin(), documented.errors.end());
         if (raised != described)
             fail(routine.place, routine.name,

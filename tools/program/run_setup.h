@@ -10,7 +10,7 @@
 
 namespace rapidc {
 
-/// What the options of a run say about its inputs: tasks, configuration, robots, conveyors, cameras and HOME.
+/// Gives the options of a run that concern its inputs to them: tasks, configuration, robots, conveyors, cameras, HOME.
 void takeOptions(rapid::workspace::Inputs& inputs, const rt::RunOptions& options);
 
 /// A folder may hold the stimulus its program is meant to be run with.

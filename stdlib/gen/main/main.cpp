@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
     const std::string target = argv[2];
     if (mode != "--out" && mode != "--reference") return usage();
     const stdlibgen::Model model = stdlibgen::readDeclarations({argv + 3, argv + argc});
-    const std::vector<std::string> problems = model.errors.empty() ? stdlibgen::brokenRules(model) : model.errors;
+    const std::vector<std::string> problems =
+        model.errors.empty() ? stdlibgen::brokenRules(model) : model.errors;
     for (const std::string& problem : problems)
         std::fprintf(stderr, "%s\n", problem.c_str());
     if (!problems.empty()) return 2;

@@ -250,15 +250,21 @@ CONST errnum ERR_FILE := 1001;
     CHECK(mentions(broken("size in bytes", "size of a file"), "'@return' repeats the summary"));
     CHECK(mentions(broken("effects: reads   ", ""), "lacks '!@ effects:'"));
     CHECK(mentions(broken("effects: reads", "effects: const"), "write 'effects: pure'"));
-    CHECK(mentions(broken("!@ raises: ERR_FILE\n", ""), "'!@ raises:' lists (), the lines '!! @error' describe (ERR_FILE)"));
-    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILES"), "'ERR_FILES' is not a constant of type errnum"));
-    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILE   deferred: Path"), "deferred: 'Path' is not a parameter"));
+    CHECK(mentions(broken("!@ raises: ERR_FILE\n", ""),
+                   "'!@ raises:' lists (), the lines '!! @error' describe (ERR_FILE)"));
+    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILES"),
+                   "'ERR_FILES' is not a constant of type errnum"));
+    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILE   deferred: Path"),
+                   "deferred: 'Path' is not a parameter"));
     CHECK(mentions(broken("string File", "string File, num file"), "has two parameters 'file'"));
 
     const auto ofData = [&](const std::string& data) { return brokenRules(read(errors + "\n" + data)); };
     CHECK(ofData("!! Another error.\nCONST errnum ERR_OTHER := 1002;\n").empty());
-    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 1001;\n"), "has the error number of 'ERR_FILE'"));
-    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 90;\n"), "an error number of programs (1 to 90)"));
-    CHECK(mentions(ofData("!! The file is not there.\nCONST num other := 1;\n"), "has the same summary as 'ERR_FILE'"));
+    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 1001;\n"),
+                   "has the error number of 'ERR_FILE'"));
+    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 90;\n"),
+                   "an error number of programs (1 to 90)"));
+    CHECK(mentions(ofData("!! The file is not there.\nCONST num other := 1;\n"),
+                   "has the same summary as 'ERR_FILE'"));
     CHECK(mentions(ofData("VAR num other := 1;\n"), "'other': has no summary"));
 }
