@@ -433,8 +433,7 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    if (!inProgress || handled.frame->routine != handled.routine) return false;
-    return statementOf(*handled.frame) != nullptr && !coversStatement(*handled.frame);
+    return inProgress && handled.frame->routine == handled.routine && inHandler(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
@@ -451,7 +450,7 @@ void Task::dropHandled(const Frame* outermost) {
 
 void Task::skipWarn() {
     const auto isOwn = [this](const HandledError& handled) {
-        return handled.frame == frame && handled.routine == frame->routine && isInHandlerOf(*frame);
+        return handled.frame == frame && handled.routine == frame->routine && inHandler(*frame);
     };
     if (!handled_.empty() && isOwn(handled_.back())) return handled_.pop_back(); // as a rule
     flushHandledWarning();
