@@ -214,7 +214,7 @@ TEST_CASE("bad declarations are refused with file and line", "[stdlib][gen]") {
     CHECK(mentions(read("!! One.\n!@ effects: pure   effects: reads\nPROC Put(num N)\n").errors,
                    "'!@ effects:' is written twice"));
     CHECK(mentions(read("!! One.\nPROC Put()\n\n!! Two.\nALIAS num two;\n").errors,
-                   ".sysx:5: the order in a file is: types, data, routines"));
+                   ".sysx:6: the order in a file is: types, data, routines"));
     CHECK_FALSE(read("!! One.\nPROC Put(num N\n").errors.empty()); // the parser's own message
     CHECK(mentions(readDeclarations({"/nowhere/x.sysx"}).errors, "cannot be read"));
 }
@@ -241,7 +241,7 @@ CONST errnum ERR_FILE := 1001;
         return brokenRules(model);
     };
     CHECK(broken("Size", "Size").empty());
-    CHECK(mentions(broken("!! Size of a file.\n", ""), ".sysx:12: 'Size': has no summary"));
+    CHECK(mentions(broken("!! Size of a file.\n", ""), ".sysx:13: 'Size': has no summary"));
     CHECK(mentions(broken("!! Size of a file.\n", "!! Its size.\n"), "the summary says too little"));
     CHECK(mentions(broken("!! @param File  its path\n", ""), "lacks '!! @param File'"));
     CHECK(mentions(broken("!! @param File  its path", "!! @param File"), "lacks '!! @param File'"));
