@@ -124,5 +124,6 @@ function(rapidc_embed_files target function header)
     COMMAND ${CMAKE_COMMAND} "-DFUNCTION=${function}" "-DHEADER=${header}" "-DFILES=${files}" "-DOUTPUT=${output}"
       -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
     DEPENDS ${ARGN} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake VERBATIM)
+  add_custom_target(embedded_${stem} DEPENDS ${output}) # otherwise it waits for the libraries of the target
   target_sources(${target} PRIVATE ${output})
 endfunction()

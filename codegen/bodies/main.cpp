@@ -171,8 +171,12 @@ bool isSelfContained(const llvm::Module& module) {
         if (function.isDeclaration() && !function.isIntrinsic() && !isErrorText(function) &&
             !codegen::isLibraryFunction(function.getName())) {
             const auto* user = llvm::dyn_cast<llvm::Instruction>(*function.user_begin());
-            fine = fail((user ? user->getFunction()->getName().str() : std::string("data")) + " uses " +
-                        function.getName().str() + ", which a native that programs inline may not call");
+            fine =
+                fail((user ? user->getFunction()->getName().str() : std::string("data")) + " uses " +
+                     function.getName().str() +
+                     ", which a native that programs inline may not call: use functions of isLibraryFunction "
+                     "(codegen/native_bodies.cpp), or another file than those of STDLIB_INLINED "
+                     "(stdlib/CMakeLists.txt)");
         }
     for (const llvm::GlobalVariable& variable : module.globals())
         if (!variable.isConstant()) fine = fail("there would be several of " + variable.getName().str());

@@ -26,23 +26,25 @@ std::string_view takeExample(std::string_view& page, std::string_view title, Exa
     return line < end ? example.substr(line + 1, end - line - 1) : std::string_view();
 }
 
-/// Reads what pageOf() (explain_pages.cpp) writes.
+} // namespace
+
 Explanation readPage(std::string_view page) {
     constexpr std::string_view kTitle = "# RAP", kEnd = "\n\n[All", kMessage = "\n> ", kName = "\nName: ";
     Explanation e;
     std::from_chars(page.data() + kTitle.size(), page.data() + page.size(), e.number);
     page = page.substr(0, page.rfind(kEnd));
+    page.remove_prefix(std::min(page.find('\n'), page.size()));
     for (const std::string_view before : {kMessage, kName}) {
         const size_t at = page.find(before);
         if (at != std::string_view::npos) page.remove_prefix(std::min(page.find("\n", at + 1), page.size()));
     }
     e.right = takeExample(page, "\n\nRight:\n\n```", e.kind);
     e.wrong = takeExample(page, "\n\nWrong:\n\n```", e.kind);
+    while (page.ends_with('\n'))
+        page.remove_suffix(1);
     e.meaning = page.substr(std::min(page.find_first_not_of('\n'), page.size()));
     return e;
 }
-
-} // namespace
 
 std::span<const Explanation> explanations() {
     static const std::vector<Explanation> kAll = [] {

@@ -28,11 +28,6 @@ bool errorListTakesOthers(const RoutineDesc& routine) {
     return inFilter(routine, kOtherErrors);
 }
 
-bool inErrorHandler(const Frame& frame) {
-    const StmtDesc* statement = statementOf(frame);
-    return statement != nullptr && statement->kind == kStmtHandler && !inUndoHandler(frame);
-}
-
 BypassedHandlers bypassedHandlers(const Frame* stoppedAt, int errorNumber) {
     BypassedHandlers result;
     const auto covered = [](const Frame& frame) {

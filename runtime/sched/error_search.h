@@ -52,8 +52,15 @@ inline bool inUndoHandler(const Frame& frame) {
 inline bool isOfProgram(const Frame& frame) {
     return frame.routine != nullptr && !isBoundary(frame);
 }
+/// The statement in progress belongs to the routine's error or UNDO handler.
+inline bool inHandler(const Frame& frame) {
+    const StmtDesc* statement = statementOf(frame);
+    return statement != nullptr && statement->kind == kStmtHandler;
+}
 /// The statement in progress belongs to the routine's error handler.
-bool inErrorHandler(const Frame& frame);
+inline bool inErrorHandler(const Frame& frame) {
+    return inHandler(frame) && !inUndoHandler(frame);
+}
 
 /// The handler that an error goes to.
 struct ErrorRoute {

@@ -33,12 +33,6 @@ bool isAmongCallers(const Frame* from, const Frame* wanted) {
     return std::less<>()(highest, wanted);
 }
 
-/// The error handler that took an error in this frame is in progress. Unlike inErrorHandler, this holds for every statement that
-/// the handler does not cover, whatever its kind.
-bool isInHandlerOf(const Frame& frame) {
-    return statementOf(frame) != nullptr && !coversStatement(frame);
-}
-
 /// The same for a record that may have been left.
 bool isInProgress(const Frame* from, const Frame* wanted) {
     int above = 0; // without one that lies below
@@ -439,7 +433,7 @@ bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
     if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
-    return inProgress && handled.frame->routine == handled.routine && isInHandlerOf(*handled.frame);
+    return inProgress && handled.frame->routine == handled.routine && inHandler(*handled.frame);
 }
 
 void Task::flushHandledWarning() {
@@ -456,7 +450,7 @@ void Task::dropHandled(const Frame* outermost) {
 
 void Task::skipWarn() {
     const auto isOwn = [this](const HandledError& handled) {
-        return handled.frame == frame && handled.routine == frame->routine && isInHandlerOf(*frame);
+        return handled.frame == frame && handled.routine == frame->routine && inHandler(*frame);
     };
     if (!handled_.empty() && isOwn(handled_.back())) return handled_.pop_back(); // as a rule
     flushHandledWarning();

@@ -76,6 +76,8 @@ Doc readDocumentation(std::string_view text, uint32_t offset, std::string& probl
         problem = fmt::format("'{}' follows no attribute: write a key before it", comment.stray);
     for (const auto& attribute : comment.attributes) {
         if (problem.empty()) problem = problemOf(attribute);
+        if (problem.empty() && doc.attr.contains(std::string(attribute.key)))
+            problem = fmt::format("'!@ {}:' is written twice: join the values", attribute.key);
         doc.attr[std::string(attribute.key)] = attribute.value;
     }
     return doc;

@@ -164,6 +164,8 @@ std::string emitJson(const Model& model) {
     }
     for (const Datum& d : model.data) {
         Json entry = common(d.name, d.kind == "CONST" ? "constant" : "data", d.doc);
+        entry["type"] = d.type;
+        entry["value"] = d.initText;
         entry["signature"] =
             fmt::format("{} {} {}{}", d.kind, d.type, d.name, d.initText.empty() ? "" : " := " + d.initText);
         all.push_back(std::move(entry));

@@ -104,6 +104,11 @@ Model readDeclarations(const std::vector<std::string>& paths);
 /// attribute.
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem);
 
+/// Broken rules of declarations, each as in Model::errors: documentation (summary, parameters, result,
+/// errors), attributes that every routine has, names in `raises:` and `deferred:`, numbers of errors. Names in one declaration may
+/// be anywhere in the model.
+std::vector<std::string> brokenRules(const Model& model);
+
 /// A mistake in the attribute `where:` of a routine; empty: none.
 std::string whereProblem(const Routine& routine);
 

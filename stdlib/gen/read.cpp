@@ -79,13 +79,25 @@ class Reader {
             model_.errors.push_back(fmt::format("{}:{}:{}: {}", path, at.line, at.column, d.message));
         }
         tree_ = tree.get();
+        stage_ = Stage::Types;
         for (const auto* module : tree->modules)
             for (const auto* decl : module->decls)
                 readDecl(*decl);
     }
 
   private:
+    enum class Stage : uint8_t { Types, Data, Routines };
+
+    void enter(Stage stage, const syn::Decl& decl) {
+        if (stage < stage_) fail(place(decl), "the order in a file is: types, data, routines");
+        stage_ = std::max(stage, stage_);
+    }
+
     void readDecl(const syn::Decl& decl) {
+        if (decl.kind == syn::NodeKind::Data) enter(Stage::Data, decl);
+        if (decl.kind == syn::NodeKind::Routine) enter(Stage::Routines, decl);
+        if (decl.kind == syn::NodeKind::Record || decl.kind == syn::NodeKind::Alias)
+            enter(Stage::Types, decl);
         switch (decl.kind) {
         case syn::NodeKind::Record: readRecord(syn::as<syn::RecordDecl>(decl)); break;
         case syn::NodeKind::Alias: readAlias(syn::as<syn::AliasDecl>(decl)); break;
@@ -107,13 +119,10 @@ class Reader {
         model_.errors.push_back(fmt::format("{}:{}: {}", where.file, where.line, message));
     }
 
-    Doc documentation(const syn::Node& node, const std::string& name, bool summaryNeeded) {
+    Doc documentation(const syn::Node& node, const std::string& name) {
         std::string problem;
         Doc doc = readDocumentation(tree_->source->text(), tree_->range(node).begin, problem);
         if (!problem.empty()) fail(place(node), fmt::format("'{}': {}", name, problem));
-        if (summaryNeeded && doc.text.empty())
-            fail(place(node),
-                 fmt::format("'{}' has no summary: write a line that starts with !! above it", name));
         declareName(node, name);
         return doc;
     }
@@ -130,7 +139,7 @@ class Reader {
         TypeInfo type;
         type.name = word(decl.name);
         type.place = place(decl);
-        type.doc = documentation(decl, type.name, true);
+        type.doc = documentation(decl, type.name);
         type.repr = reprOf(type.name, type.doc.get("class"));
         if (const std::string bytes = type.doc.get("bytes"); !bytes.empty()) {
             type.repr = Repr::Bytes;
@@ -151,7 +160,7 @@ class Reader {
         type.name = word(decl.name);
         type.aliasOf = word(decl.type);
         type.place = place(decl);
-        type.doc = documentation(decl, type.name, true);
+        type.doc = documentation(decl, type.name);
         const Repr own = reprOf(type.name, type.doc.get("class"));
         if (own == Repr::Handle) type.aliasOf.clear(); // declared as an alias for want of a better form
         type.repr = own;
@@ -166,7 +175,7 @@ class Reader {
         datum.type = word(decl.type);
         datum.name = word(decl.name);
         datum.place = place(decl);
-        datum.doc = documentation(decl, datum.name, false);
+        datum.doc = documentation(decl, datum.name);
         if (decl.init) datum.initText = collapsed(written(*decl.init));
         if (decl.dims.empty()) datum.number = literalNumber(decl.init);
         model_.data.push_back(std::move(datum));
@@ -190,7 +199,7 @@ class Reader {
         routine.returnType = word(decl.returnType);
         routine.place = place(decl);
         routine.native = !decl.hasBody;
-        routine.doc = documentation(decl, routine.name, true);
+        routine.doc = documentation(decl, routine.name);
         routine.role = rapid::sema::valueOf(rapid::sema::kRoleWords, routine.doc.get("role"))
                            .value_or(rapid::sema::Role::None);
         for (const auto* p : decl.params)
@@ -211,6 +220,7 @@ class Reader {
     Model& model_;
     const syn::SyntaxTree* tree_ = nullptr;
     std::string path_;
+    Stage stage_ = Stage::Types; ///< of the file
     std::unordered_map<std::string, Place> names_;
 };
 

@@ -74,7 +74,9 @@ def directives_of(path):
         for line in file:
             match = DIRECTIVE.match(line)
             if match and match.group(1) in KNOWN_DIRECTIVES:
-                found.setdefault(match.group(1), match.group(2))
+                if match.group(1) in found:
+                    raise BadTest(f"{path} has '!@ {match.group(1)}:' twice: write it once, with all values")
+                found[match.group(1)] = match.group(2)
     return found
 
 

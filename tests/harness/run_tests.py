@@ -100,8 +100,9 @@ def write_ctest(path, source, build):
     add("layers/layering_test", [sys.executable, os.path.join(layers, "layering_test.py")], 60)
     add("layers/classes", [sys.executable, os.path.join(scripts, "check_classes.py"), "--source", source], 60)
     add("layers/runtime_alone", [os.path.join(build, "rapidc_runtime_alone")], 60)
-    add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"), "--rapidc",
-                         os.path.join(build, "rapidc")], 60)
+    add("stdlib/names", [sys.executable, os.path.join(scripts, "check_stdlib.py"),
+                         "--builtins", os.path.join(build, "generated", "stdlib", "builtins.json"),
+                         "--rapidc", os.path.join(build, "rapidc")], 60)
     add("errors/every_constant", [sys.executable, os.path.join(scripts, "check_error_tests.py"), "--rapidc",
                                   os.path.join(build, "rapidc")], 900)
     with open(path, "w", encoding="utf-8") as file:

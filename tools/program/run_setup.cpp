@@ -10,6 +10,15 @@ namespace rapidc {
 
 namespace fs = std::filesystem;
 
+void takeOptions(rapid::workspace::Inputs& inputs, const rt::RunOptions& options) {
+    inputs.tasks = options.tasks;
+    inputs.configFiles = options.configFiles;
+    inputs.robots = options.robots;
+    inputs.conveyors = options.conveyors;
+    inputs.cameras = options.cameras;
+    inputs.home = options.home;
+}
+
 void findStimulus(rt::RunOptions& options, const std::vector<std::string>& inputs) {
     if (!options.stimulus.empty() || inputs.size() != 1) return;
     const fs::path beside = fs::path(inputs[0]) / "stimulus.csv";

@@ -82,12 +82,7 @@ int execute(RunSettings& settings, const LoadedProgram& program) {
 
 int run(RunSettings& settings) {
     Inputs& inputs = settings.inputs;
-    inputs.tasks = settings.options.tasks;
-    inputs.configFiles = settings.options.configFiles;
-    inputs.robots = settings.options.robots;
-    inputs.conveyors = settings.options.conveyors;
-    inputs.cameras = settings.options.cameras;
-    inputs.home = settings.options.home;
+    takeOptions(inputs, settings.options);
     inputs.requireMain = true;
     auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) return usageErrors("run", compilation->usageErrors);

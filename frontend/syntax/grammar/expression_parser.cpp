@@ -346,7 +346,7 @@ Expr* ExpressionParser::parseIndex(Expr* base) {
     const TokenIndex opening = pos();
     const K closing = kind() == K::LeftBrace ? K::RightBrace : ahead().closingOf(opening);
     const bool otherForm = kind() != K::LeftBrace;
-    if (otherForm && closing == K::RightParen && hasOption(opening)) { // "NumToStr[1500, 1 \Exp)"
+    if (otherForm && closing == K::RightParen && ahead().hasOption(opening)) { // "NumToStr[1500, 1 \Exp)"
         fix(report(say::ForeignSpelling, opening,
                    {std::string(textOf(opening)), "'(' before the arguments of a function"}),
             range(opening), "(");
@@ -398,7 +398,7 @@ Expr* ExpressionParser::parseParenthesised() {
     if (kind() == K::Assign && !panic() && ahead().findOnLine(pos(), K::RightParen, closing))
         node->inner = parseMeantEqual(opening + 1, errorsBefore);
     ++height_;
-    if ((kind() == K::Comma || kind() == K::Backslash) && !panic() && isDoubled(opening)) {
+    if ((kind() == K::Comma || kind() == K::Backslash) && !panic() && ahead().isDoubled(opening)) {
         dropDoubled(opening);
         return node->inner;
     }
@@ -468,42 +468,15 @@ std::span<Expr*> ExpressionParser::parseExpressionList(K closing, TokenIndex ope
     return drain(nodes().exprs, bottom);
 }
 
-/// "x{{1, 2}": the bracket before this one is the same, and nothing closes it.
-bool ExpressionParser::isDoubled(TokenIndex opening) const {
-    constexpr TokenIndex kSearch = 200;
-    if (opening == 0 || kindAt(opening - 1) != kindAt(opening)) return false;
-    uint32_t depth = 1;
-    bool closed = false;
-    for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::EndOfFile; ++i) {
-        if (kindAt(i) == K::Semicolon) return closed;
-        if (kOpenBrackets.has(kindAt(i))) ++depth;
-        if (kCloseBrackets.has(kindAt(i)) && --depth == 0) return false;
-        closed = closed || depth == 1;
-    }
-    return false;
-}
-
 void ExpressionParser::dropDoubled(TokenIndex opening) {
     const std::string sign(textOf(opening));
     fix(report(say::UnexpectedToken, opening, {"a second '" + sign + "'", "an expression"}), range(opening),
         "");
 }
 
-/// Whether an optional argument is between this bracket and the one that closes it.
-bool ExpressionParser::hasOption(TokenIndex opening) const {
-    constexpr TokenIndex kSearch = 200;
-    uint32_t depth = 0;
-    for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::Semicolon; ++i) {
-        if (kOpenBrackets.has(kindAt(i))) ++depth;
-        if (kCloseBrackets.has(kindAt(i)) && --depth == 0) return false;
-        if (depth == 1 && kindAt(i) == K::Backslash) return true;
-    }
-    return false;
-}
-
 /// `(1, 2, 3)` and `{1, 2, 3}` as a value, before or after its first member.
 Expr* ExpressionParser::parseForeignAggregate(TokenIndex opening, K closing) {
-    if (pos() == opening && isDoubled(opening)) {
+    if (pos() == opening && ahead().isDoubled(opening)) {
         dropDoubled(take());
         return parseExpression();
     }

@@ -40,9 +40,7 @@ class ExpressionParser : public ParserPart {
     void reportBadNumber(TokenIndex token);
     Expr* parseLoneNumber();
     Expr* parseFunctionCall();
-    bool isDoubled(TokenIndex opening) const;
     void dropDoubled(TokenIndex opening);
-    bool hasOption(TokenIndex opening) const;
     void fixBrackets(diag::Diagnostic* diagnostic, const IndexExpr& node, TokenIndex opening);
     Expr* parseParenthesised();
     Expr* parseAggregate();

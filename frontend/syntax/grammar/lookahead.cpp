@@ -125,17 +125,39 @@ bool Lookahead::isBracketTarget() const {
     return false;
 }
 
-TokenKind Lookahead::closingOf(TokenIndex opening) const {
-    const K own = kindAt(opening) == K::LeftBracket ? K::RightBracket
-                  : kindAt(opening) == K::LeftParen ? K::RightParen
-                                                    : K::RightBrace;
+/// Calls visit(i) for each token that is in the bracket at `opening` itself, not in one inside it. Ends at the sign that closes
+/// it or at a semicolon and returns that token; kNoToken: neither is near.
+template <class Visit> TokenIndex Lookahead::walkBracket(TokenIndex opening, Visit&& visit) const {
     constexpr TokenIndex kSearch = 200;
     uint32_t depth = 0;
-    for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::Semicolon; ++i) {
+    for (TokenIndex i = opening; i < opening + kSearch && kindAt(i) != K::EndOfFile; ++i) {
+        if (kindAt(i) == K::Semicolon) return i;
         if (kOpenBrackets.has(kindAt(i))) ++depth;
-        if (kCloseBrackets.has(kindAt(i)) && --depth == 0) return kindAt(i);
+        if (kCloseBrackets.has(kindAt(i)) && --depth == 0) return i;
+        if (depth == 1) visit(i);
     }
-    return own;
+    return kNoToken;
+}
+
+TokenKind Lookahead::closingOf(TokenIndex opening) const {
+    const TokenIndex end = walkBracket(opening, [](TokenIndex) {});
+    if (end != kNoToken && kindAt(end) != K::Semicolon) return kindAt(end);
+    return kindAt(opening) == K::LeftBracket ? K::RightBracket
+           : kindAt(opening) == K::LeftParen ? K::RightParen
+                                             : K::RightBrace;
+}
+
+bool Lookahead::hasOption(TokenIndex opening) const {
+    bool found = false;
+    walkBracket(opening, [&](TokenIndex i) { found |= kindAt(i) == K::Backslash; });
+    return found;
+}
+
+bool Lookahead::isDoubled(TokenIndex opening) const {
+    if (opening == 0 || kindAt(opening - 1) != kindAt(opening)) return false;
+    bool innerClosed = false;
+    const TokenIndex end = walkBracket(opening - 1, [&](TokenIndex i) { innerClosed |= i > opening; });
+    return innerClosed && end != kNoToken && kindAt(end) == K::Semicolon;
 }
 
 bool Lookahead::atReservedName() const {

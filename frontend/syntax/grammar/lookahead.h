@@ -33,6 +33,10 @@ class Lookahead : public ParserPart {
     bool isBracketTarget() const;
     /// The sign that closes the bracket at `opening`, which another language writes: of its own kind, or the one RAPID has there.
     K closingOf(TokenIndex opening) const;
+    /// An optional argument is between this bracket and the one that closes it.
+    bool hasOption(TokenIndex opening) const;
+    /// "x{{1, 2}": the bracket before this one is the same, and nothing closes it.
+    bool isDoubled(TokenIndex opening) const;
     /// A reserved word in the place of an operand, followed by what can follow an operand.
     bool atReservedName() const;
     /// "MoveL *, v100, fine, tool0;"
@@ -58,6 +62,7 @@ class Lookahead : public ParserPart {
     bool mayBeIndex(const Expr& index) const;
 
   private:
+    template <class Visit> TokenIndex walkBracket(TokenIndex opening, Visit&& visit) const;
     bool listClosesBelow(TokenIndex from) const;
     bool isInstructionLine() const;
 };

@@ -59,9 +59,11 @@ int main(int argc, char** argv) {
     const std::string target = argv[2];
     if (mode != "--out" && mode != "--reference") return usage();
     const stdlibgen::Model model = stdlibgen::readDeclarations({argv + 3, argv + argc});
-    for (const std::string& error : model.errors)
-        std::fprintf(stderr, "%s\n", error.c_str());
-    if (!model.errors.empty()) return 2;
+    const std::vector<std::string> problems =
+        model.errors.empty() ? stdlibgen::brokenRules(model) : model.errors;
+    for (const std::string& problem : problems)
+        std::fprintf(stderr, "%s\n", problem.c_str());
+    if (!problems.empty()) return 2;
     std::error_code code;
     std::filesystem::create_directories(target, code); // a failure shows when a file is written
     const bool ok = mode == "--out" ? writeAll(model, target) : writeReference(model, target);

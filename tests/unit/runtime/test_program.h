@@ -16,7 +16,8 @@ namespace testing {
 
 inline constexpr rt::StmtDesc kHandled{1, 1, 1, 2, 0, 1, 0, 0, -1};
 
-/// A routine of `lines` statements on lines 1, 2, 3 ...; `handled` of them, from the first, are covered by a handler.
+/// A routine of `lines` statements on lines 1, 2, 3 ...; `handled` of them, from the first, are covered by a handler, to which the
+/// others belong.
 struct Routine {
     std::vector<rt::StmtDesc> statements;
     std::vector<int32_t> filter;
@@ -25,7 +26,9 @@ struct Routine {
     Routine(const char* name, uint32_t lines, uint32_t handled = 0, std::vector<int32_t> errors = {})
         : filter(std::move(errors)) {
         for (uint32_t line = 1; line <= lines; ++line) {
-            statements.push_back({line, 3, line, 20, 0, static_cast<uint8_t>(line <= handled), 0, 0, -1});
+            const bool covered = line <= handled;
+            const uint8_t kind = handled > 0 && !covered ? rt::kStmtHandler : rt::kStmtPlain;
+            statements.push_back({line, 3, line, 20, kind, static_cast<uint8_t>(covered), 0, 0, -1});
         }
         desc.name = name;
         desc.module = "TestModule";

@@ -204,7 +204,6 @@ TEST_CASE("bad declarations are refused with file and line", "[stdlib][gen]") {
     const Model unknown = read("!! Does it.\nPROC Put(nothing N)\n");
     REQUIRE(unknown.errors.size() == 1);
     CHECK(mentions(unknown.errors, ".sysx:3: 'Put' uses the unknown type 'nothing'"));
-    CHECK(mentions(read("PROC Put(num N)\n").errors, ".sysx:2: 'Put' has no summary"));
     CHECK(mentions(read("!! One.\nPROC Put(num N)\n\n!! Two.\nPROC put(num N)\n").errors,
                    "'put' is declared twice, first at"));
     CHECK(mentions(read("!! One.\n!@ manuel: 1.2\nPROC Put(num N)\n").errors, "unknown attribute 'manuel:'"));
@@ -212,6 +211,60 @@ TEST_CASE("bad declarations are refused with file and line", "[stdlib][gen]") {
         mentions(read("!! One.\n!@ what is this\nPROC Put(num N)\n").errors, "'what' follows no attribute"));
     CHECK(
         mentions(read("!! Empty.\nRECORD nothing\nENDRECORD\n").errors, "record 'nothing' has no component"));
+    CHECK(mentions(read("!! One.\n!@ effects: pure   effects: reads\nPROC Put(num N)\n").errors,
+                   "'!@ effects:' is written twice"));
+    CHECK(mentions(read("!! One.\nPROC Put()\n\n!! Two.\nALIAS num two;\n").errors,
+                   ".sysx:6: the order in a file is: types, data, routines"));
     CHECK_FALSE(read("!! One.\nPROC Put(num N\n").errors.empty()); // the parser's own message
     CHECK(mentions(readDeclarations({"/nowhere/x.sysx"}).errors, "cannot be read"));
+}
+
+TEST_CASE("rules of declarations: documentation, attributes, errors", "[stdlib][gen]") {
+    const std::string errors = R"(!! Number of an error.
+ALIAS num errnum;
+
+!! The file is not there.
+CONST errnum ERR_FILE := 1001;
+)";
+    const std::string attributes = "!@ manual: 1.1   effects: reads   confidence: high\n";
+    const std::string complete = "!! Size of a file.\n!! @param File  its path\n!! @return size in bytes\n"
+                                 "!! @error ERR_FILE  it is not there\n" +
+                                 attributes + "!@ raises: ERR_FILE\nFUNC num Size(string File)\n";
+    // The rules that `declaration` breaks, with `from` replaced by `to` in it.
+    const auto broken = [&](const std::string& from, const std::string& to) {
+        std::string declaration = complete;
+        const size_t at = declaration.find(from);
+        REQUIRE(at != std::string::npos);
+        declaration.replace(at, from.size(), to);
+        const Model model = read(errors + "\n" + declaration);
+        REQUIRE(model.errors.empty());
+        return brokenRules(model);
+    };
+    CHECK(broken("Size", "Size").empty());
+    CHECK(mentions(broken("!! Size of a file.\n", ""), ".sysx:13: 'Size': has no summary"));
+    CHECK(mentions(broken("!! Size of a file.\n", "!! Its size.\n"), "the summary says too little"));
+    CHECK(mentions(broken("!! @param File  its path\n", ""), "lacks '!! @param File'"));
+    CHECK(mentions(broken("!! @param File  its path", "!! @param File"), "lacks '!! @param File'"));
+    CHECK(mentions(broken("@param File", "@param Path"), "'@param Path' names no parameter"));
+    CHECK(mentions(broken("!! @return size in bytes\n", ""), "lacks '!! @return'"));
+    CHECK(mentions(broken("size in bytes", "size of a file"), "'@return' repeats the summary"));
+    CHECK(mentions(broken("effects: reads   ", ""), "lacks '!@ effects:'"));
+    CHECK(mentions(broken("effects: reads", "effects: const"), "write 'effects: pure'"));
+    CHECK(mentions(broken("!@ raises: ERR_FILE\n", ""),
+                   "'!@ raises:' lists (), the lines '!! @error' describe (ERR_FILE)"));
+    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILES"),
+                   "'ERR_FILES' is not a constant of type errnum"));
+    CHECK(mentions(broken("raises: ERR_FILE", "raises: ERR_FILE   deferred: Path"),
+                   "deferred: 'Path' is not a parameter"));
+    CHECK(mentions(broken("string File", "string File, num file"), "has two parameters 'file'"));
+
+    const auto ofData = [&](const std::string& data) { return brokenRules(read(errors + "\n" + data)); };
+    CHECK(ofData("!! Another error.\nCONST errnum ERR_OTHER := 1002;\n").empty());
+    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 1001;\n"),
+                   "has the error number of 'ERR_FILE'"));
+    CHECK(mentions(ofData("!! Another error.\nCONST errnum ERR_OTHER := 90;\n"),
+                   "an error number of programs (1 to 90)"));
+    CHECK(mentions(ofData("!! The file is not there.\nCONST num other := 1;\n"),
+                   "has the same summary as 'ERR_FILE'"));
+    CHECK(mentions(ofData("VAR num other := 1;\n"), "'other': has no summary"));
 }

@@ -4,6 +4,7 @@
 
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
+#include "frontend/diag/explain_pages.h"
 
 #include <catch2/catch.hpp>
 
@@ -40,4 +41,24 @@ TEST_CASE("wrong examples cause their diagnostic, right ones none", "[diag]") {
         REQUIRE(wrong.sink.all().size() == 1);
         CHECK(static_cast<int>(wrong.sink.all()[0].code) == e.number);
     }
+}
+
+TEST_CASE("a page may be begun by hand: title, meaning, examples", "[diag]") {
+    const std::string begun =
+        "# RAP2104 Type mismatch\n\nIt does not fit.\n\nWrong:\n\n```text body\nn := \"1\";\n```\n"
+        "\nRight:\n\n```rapid body\nn := 1;\n```\n";
+    const std::string written =
+        "# RAP2104 Type mismatch\n\nerror, names and types\n\n> cannot assign ...\n\nName: `x`; off by `-W "
+        "no-x`\n" +
+        begun.substr(begun.find("\n\nIt") + 1) + "\n[All diagnostics](README.md)\n";
+    for (const std::string& page : {begun, written}) {
+        INFO(page);
+        const diag::Explanation e = diag::readPage(page);
+        CHECK(e.number == 2104);
+        CHECK(e.meaning == "It does not fit.");
+        CHECK(e.wrong == "n := \"1\";");
+        CHECK(e.right == "n := 1;");
+        CHECK(e.kind == diag::ExampleKind::Body);
+    }
+    CHECK(diag::readPage("# RAP2104 Type mismatch\n").meaning.empty());
 }

@@ -110,9 +110,7 @@ Program::~Program() = default;
 std::unique_ptr<Compilation> Program::check(Client& client) {
     Inputs inputs;
     inputs.paths = {arguments_.program};
-    inputs.tasks = options_.tasks;
-    inputs.configFiles = options_.configFiles;
-    inputs.robots = options_.robots;
+    takeOptions(inputs, options_);
     inputs.requireMain = true;
     auto compilation = checkInputs(inputs);
     if (!compilation->usageErrors.empty()) {

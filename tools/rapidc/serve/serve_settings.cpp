@@ -119,12 +119,7 @@ std::string complete(ServeSettings& settings,
     controller.programStart = !settings.noProgramStart;
     controller.motorsOn = settings.motorsOn;
     Inputs& inputs = controller.inputs;
-    inputs.tasks = options.tasks;
-    inputs.configFiles = options.configFiles;
-    inputs.robots = options.robots;
-    inputs.conveyors = options.conveyors;
-    inputs.cameras = options.cameras;
-    inputs.home = options.home;
+    takeOptions(inputs, options);
     if (std::string problem = readPassword(settings); !problem.empty()) return problem;
     if (options.network.listen) {
         settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
