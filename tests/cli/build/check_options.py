@@ -19,6 +19,6 @@ for command in ("build", "run", "serve"):
     for option in sorted(options(RAPIDC, command) - own):
         count += 1
         result = subprocess.run([EXECUTABLE, option], capture_output=True, text=True, timeout=60)
-        if result.returncode != 2 or not re.search(rf"'{option}' is an option of 'rapidc \w+'", result.stderr):
+        if result.returncode != 3 or not re.search(rf"'{option}' is an option of 'rapidc \w+'", result.stderr):
             problems.append(f"{option} of {command}: exit {result.returncode}, {result.stderr.strip()}")
 print("\n".join(problems) if problems else f"{count} options")
