@@ -251,18 +251,47 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
 
 namespace {
 
+/// Removes `"name":` and its number from a line of the event log. Returns the number as it is written; empty without one.
+std::string takeNumber(std::string& line, const std::string& name) {
+    const std::string key = "\"" + name + "\":";
+    const size_t begin = line.find(key);
+    if (begin == std::string::npos) return {};
+    const size_t end = line.find(',', begin);
+    const std::string number = line.substr(begin + key.size(), end - begin - key.size());
+    line.erase(begin, end + 1 - begin);
+    return number;
+}
+
+/// An event and its repetitions, which the log counts until another event lies between them.
+struct Repeated {
+    std::string line;        ///< without times and count
+    std::string first, last; ///< times
+    size_t count = 0;
+};
+
 /// Leaves out what may differ between the profiles: the warning of a handled error, whose time depends on when it is known that the
 /// handler has not called SkipWarn (RunResult::errors has these errors with their own times), and the line of an endless program at
-/// its time limit, which is the statement before or after the look.
+/// its time limit, which is the statement before or after the look. A warning left out may have split the count of another event, so
+/// all repetitions of an event are counted together.
 std::string comparableEvents(const std::string& events) {
-    std::string kept;
+    std::vector<Repeated> all;
     std::istringstream lines(events);
     for (std::string line; std::getline(lines, line);) {
         if (line.find("\"number\":40901,") != std::string::npos) continue;
         line.erase(0, line.find("\"number\"")); // its number in the log counts the warnings
         if (line.find("\"number\":20901,") != std::string::npos) line.erase(line.find("\"text\""));
-        kept += line + "\n";
+        const std::string time = takeNumber(line, "time"), count = takeNumber(line, "count");
+        takeNumber(line, "since");
+        auto found =
+            std::find_if(all.begin(), all.end(), [&](const Repeated& known) { return known.line == line; });
+        if (found == all.end()) found = all.insert(found, {line, time, time, 0});
+        found->last = time;
+        found->count += count.empty() ? 1 : std::stoul(count);
     }
+    std::string kept;
+    for (const Repeated& event : all)
+        kept += event.line + " " + event.first + " to " + event.last + ", " + std::to_string(event.count) +
+                " times\n";
     return kept;
 }
 
