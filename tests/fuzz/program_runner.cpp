@@ -94,12 +94,12 @@ ProgramRunner::ProgramRunner() {
     library_ = sema::check({}, options_, sink);
 }
 
-bool ProgramRunner::check(const TaskTexts& tasks) {
+bool ProgramRunner::check(const TaskTexts& tasks, size_t robots) {
     std::vector<sema::TaskInput> inputs;
     sources_.clear();
     for (size_t i = 0; i < tasks.size(); ++i) {
         sema::TaskInput& input = inputs.emplace_back();
-        if (i > 0) input.name = "T_" + std::to_string(i + 1);
+        if (i > 0) input.name = (i < robots ? "T_ROB" : "T_") + std::to_string(i + 1);
         for (const std::string& text : tasks[i]) {
             const std::string name = input.name + "_" + std::to_string(input.files.size()) + ".modx";
             input.files.push_back(std::make_shared<const SourceFile>(name, text));
@@ -207,9 +207,9 @@ Tally& tally() {
 namespace {
 
 /// Checks the program, counts it, and shows it where RAPIDC_FUZZ_SHOW asks for that.
-bool accepts(ProgramRunner& runner, const TaskTexts& tasks) {
+bool accepts(ProgramRunner& runner, const TaskTexts& tasks, size_t robots = 1) {
     ++tally().all;
-    const bool accepted = runner.check(tasks);
+    const bool accepted = runner.check(tasks, robots);
     if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
         for (const auto& task : tasks)
             for (const std::string& text : task)
@@ -297,8 +297,8 @@ std::string comparableEvents(const std::string& events) {
 
 } // namespace
 
-bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
-    if (!accepts(runner, tasks)) return false;
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks, size_t robots) {
+    if (!accepts(runner, tasks, robots)) return false;
     const RunResult plain = runner.run({.optimise = false, .records = true});
     tally().ended += plain.status == 0 ? 1u : 0u;
     const auto compare = [&](const char* name, const RunResult& other) {
