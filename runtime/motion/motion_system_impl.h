@@ -13,10 +13,11 @@
 namespace motion {
 
 /// Nanoseconds that are not before the given seconds, so that what is promised for a time has happened by
-/// then. At most 4e9 s (126 years): a sum of two such times is still a time.
+/// then. At most 4e9 s (126 years) from the beginning, in both directions (infinity is a time, too): a sum of two such times is
+/// still a time.
 inline TimeNs toNs(double seconds) {
     constexpr double kLongest = 4e9;
-    return static_cast<TimeNs>(std::ceil(std::min(seconds, kLongest) * 1e9 - 1e-6));
+    return static_cast<TimeNs>(std::ceil(std::clamp(seconds, -kLongest, kLongest) * 1e9 - 1e-6));
 }
 inline double toSeconds(TimeNs time) {
     return static_cast<double>(time) * 1e-9;

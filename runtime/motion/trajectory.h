@@ -82,7 +82,7 @@ class Trajectory {
     virtual void release(double now);
     virtual bool isHeld() const { return isHeld_; }
     virtual bool isMoving(double time) const;
-    /// When everything comes to rest, as planned.
+    /// When everything comes to rest, as planned; minus infinity when nothing is planned, as at a path that is held from its beginning.
     virtual double restTime() const;
     /// The place where the arm would come to rest if hold() were called at that time, which has been planned already.
     virtual PathPlace restPlaceIfHeld(double time) const;

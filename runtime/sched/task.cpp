@@ -367,6 +367,7 @@ Status Task::safepointOnce(Frame* at) {
         // The slice is not over: somebody asked to look for interrupts, or for the end of the slice.
         scheduler_.lookAtData();
         if (interrupts_.deliverable()) {
+            if (scheduler_.dataWatched()) forceLook(); // what the trap routine changes is seen at once
             status = interrupts_.deliver();
             if (yieldWanted_) forceSafepoint();
         } else if (yieldWanted_) {

@@ -1,8 +1,8 @@
 // libFuzzer target: a conversation with the debug adapter, which executes a program. Must not crash or hang; every request has one
 // answer, a refusal has a message, messages are numbered in order, and the session ends when the client disconnects.
 //
-// The first byte chooses the program. Each line is a message. One that begins with a letter is short for a request: letter, number,
-// comma, number, blank, text. Every other line is taken as it is.
+// The first byte chooses the program, which may have two tasks. Each line is a message. One that begins with a letter is short for a
+// request: letter, number, comma, number, blank, text; an odd second number is of the second task. Every other line is taken as it is.
 
 #include "config/json_text.h"
 #include "fuzz_support.h"
@@ -33,7 +33,7 @@ struct Words {
 };
 
 Json frameOf(const Words& words) {
-    return {{"frameId", words.number}, {"threadId", 1}};
+    return {{"frameId", words.number}, {"threadId", 1 + words.second % 2}};
 }
 
 /// Arguments of the requests that have a letter; the adapter ignores those that a request has no use for.
@@ -92,10 +92,27 @@ const std::map<char, const char*> kRequests = {{'a', "stepIn"},
                                                {'z', "setDataBreakpoints"}};
 constexpr std::string_view kOrders = "acnorhuvw"; ///< after these the program executes
 
-std::string programOf(char choice) {
-    static const char* const kPrograms[] = {"part", "errors", "moves", "traps", "endless", "frames"};
-    return std::string(RAPIDC_SOURCE_DIR "/tests/cli/dap/") +
-           kPrograms[static_cast<unsigned char>(choice) % 6] + ".modx";
+std::string pathOf(const std::string& name) {
+    return RAPIDC_SOURCE_DIR "/tests/cli/dap/" + name + ".modx";
+}
+
+/// A program, and its second task when it has one.
+struct Program {
+    const char* name;
+    const char* task = "";
+    const char* second = "";
+};
+
+Program programOf(char choice) {
+    static const Program kPrograms[] = {{"part"},
+                                        {"errors"},
+                                        {"moves"},
+                                        {"traps"},
+                                        {"endless"},
+                                        {"frames"},
+                                        {"together_a", "T_ROB2", "together_b"},
+                                        {"two_a", "T_B:STATIC", "two_b"}};
+    return kPrograms[static_cast<unsigned char>(choice) % std::size(kPrograms)];
 }
 
 /// The client: sends one line after the other, each when the one before has its answer.
@@ -105,9 +122,13 @@ class Conversation {
         : inbox_(inbox), session_(session), input_(input) {}
 
     void hold(const std::string& bytes) {
-        const std::string program = programOf(bytes.empty() ? '\0' : bytes[0]);
+        const Program chosen = programOf(bytes.empty() ? '\0' : bytes[0]);
+        const std::string program = pathOf(chosen.name);
+        Json launch{{"program", program}, {"stopOnEntry", true}};
+        if (*chosen.second != '\0')
+            launch["tasks"] = Json::array({std::string(chosen.task) + "=" + pathOf(chosen.second)});
         ask("initialize", Json::object());
-        ask("launch", {{"program", program}, {"stopOnEntry", true}});
+        ask("launch", std::move(launch));
         ask("configurationDone", Json::object());
         waitFor([this] { return stops_ > 0; });
         for (size_t from = 1; from < bytes.size() && !gone_;) {

@@ -94,12 +94,12 @@ ProgramRunner::ProgramRunner() {
     library_ = sema::check({}, options_, sink);
 }
 
-bool ProgramRunner::check(const TaskTexts& tasks) {
+bool ProgramRunner::check(const TaskTexts& tasks, size_t robots) {
     std::vector<sema::TaskInput> inputs;
     sources_.clear();
     for (size_t i = 0; i < tasks.size(); ++i) {
         sema::TaskInput& input = inputs.emplace_back();
-        if (i > 0) input.name = "T_" + std::to_string(i + 1);
+        if (i > 0) input.name = (i < robots ? "T_ROB" : "T_") + std::to_string(i + 1);
         for (const std::string& text : tasks[i]) {
             const std::string name = input.name + "_" + std::to_string(input.files.size()) + ".modx";
             input.files.push_back(std::make_shared<const SourceFile>(name, text));
@@ -207,9 +207,9 @@ Tally& tally() {
 namespace {
 
 /// Checks the program, counts it, and shows it where RAPIDC_FUZZ_SHOW asks for that.
-bool accepts(ProgramRunner& runner, const TaskTexts& tasks) {
+bool accepts(ProgramRunner& runner, const TaskTexts& tasks, size_t robots = 1) {
     ++tally().all;
-    const bool accepted = runner.check(tasks);
+    const bool accepted = runner.check(tasks, robots);
     if (std::getenv("RAPIDC_FUZZ_SHOW") != nullptr) {
         for (const auto& task : tasks)
             for (const std::string& text : task)
@@ -251,25 +251,54 @@ bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, boo
 
 namespace {
 
+/// Removes `"name":` and its number from a line of the event log. Returns the number as it is written; empty without one.
+std::string takeNumber(std::string& line, const std::string& name) {
+    const std::string key = "\"" + name + "\":";
+    const size_t begin = line.find(key);
+    if (begin == std::string::npos) return {};
+    const size_t end = line.find(',', begin);
+    const std::string number = line.substr(begin + key.size(), end - begin - key.size());
+    line.erase(begin, end + 1 - begin);
+    return number;
+}
+
+/// An event and its repetitions, which the log counts until another event lies between them.
+struct Repeated {
+    std::string line;        ///< without times and count
+    std::string first, last; ///< times
+    size_t count = 0;
+};
+
 /// Leaves out what may differ between the profiles: the warning of a handled error, whose time depends on when it is known that the
 /// handler has not called SkipWarn (RunResult::errors has these errors with their own times), and the line of an endless program at
-/// its time limit, which is the statement before or after the look.
+/// its time limit, which is the statement before or after the look. A warning left out may have split the count of another event, so
+/// all repetitions of an event are counted together.
 std::string comparableEvents(const std::string& events) {
-    std::string kept;
+    std::vector<Repeated> all;
     std::istringstream lines(events);
     for (std::string line; std::getline(lines, line);) {
         if (line.find("\"number\":40901,") != std::string::npos) continue;
         line.erase(0, line.find("\"number\"")); // its number in the log counts the warnings
         if (line.find("\"number\":20901,") != std::string::npos) line.erase(line.find("\"text\""));
-        kept += line + "\n";
+        const std::string time = takeNumber(line, "time"), count = takeNumber(line, "count");
+        takeNumber(line, "since");
+        auto found =
+            std::find_if(all.begin(), all.end(), [&](const Repeated& known) { return known.line == line; });
+        if (found == all.end()) found = all.insert(found, {line, time, time, 0});
+        found->last = time;
+        found->count += count.empty() ? 1 : std::stoul(count);
     }
+    std::string kept;
+    for (const Repeated& event : all)
+        kept += event.line + " " + event.first + " to " + event.last + ", " + std::to_string(event.count) +
+                " times\n";
     return kept;
 }
 
 } // namespace
 
-bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks) {
-    if (!accepts(runner, tasks)) return false;
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks, size_t robots) {
+    if (!accepts(runner, tasks, robots)) return false;
     const RunResult plain = runner.run({.optimise = false, .records = true});
     tally().ended += plain.status == 0 ? 1u : 0u;
     const auto compare = [&](const char* name, const RunResult& other) {

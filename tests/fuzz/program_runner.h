@@ -31,8 +31,8 @@ class ProgramRunner {
     ProgramRunner();
     /// The library alone, checked.
     const sema::CheckedProgram& library() const { return *library_; }
-    /// True when there are no errors; then run() can be called.
-    bool check(const TaskTexts& tasks);
+    /// True when there are no errors; then run() can be called. `robots`: how many of the tasks have one.
+    bool check(const TaskTexts& tasks, size_t robots = 1);
     /// Errors of the last check, for people.
     const std::string& errors() const { return errors_; }
     /// The modules of the last check, with their names.
@@ -58,7 +58,7 @@ struct Tally {
 bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise);
 
 /// Checks, and compares output, events, signals with their times, and errors of all profiles. False: check refuses the program.
-bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks);
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks, size_t robots);
 
 /// Of tryProgram() in this process; shown when it ends. RAPIDC_FUZZ_SHOW=1 shows programs and refusals as well.
 Tally& tally();

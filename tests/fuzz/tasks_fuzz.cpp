@@ -9,6 +9,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static rapid::fuzz::ProgramRunner runner;
     rapid::fuzz::TasksMaker maker(data, size);
     const rapid::fuzz::TaskTexts tasks = maker.make();
-    rapid::fuzz::require(rapid::fuzz::tryTasks(runner, tasks), "the program is refused");
+    rapid::fuzz::require(rapid::fuzz::tryTasks(runner, tasks, maker.robots()), "the program is refused");
     return 0;
 }

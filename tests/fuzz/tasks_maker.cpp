@@ -15,6 +15,7 @@ std::string named(const char* stem, size_t number) {
 
 TaskTexts TasksMaker::make() {
     tasks_ = 2 + choose_.below(2);
+    if (choose_.chance(40)) planSections();
     TaskTexts texts;
     for (task_ = 1; task_ <= tasks_; ++task_)
         texts.push_back({module(task_)});
@@ -39,9 +40,14 @@ std::string TasksMaker::module(size_t task) {
         line(data);
     std::string members;
     for (size_t i = 1; i <= tasks_; ++i)
-        members += (i == 1 ? "[\"T_ROB1\"]" : ", [\"T_" + std::to_string(i) + "\"]");
+        members +=
+            (i == 1 ? "[\"T_ROB1\"]" : (i <= robots_ ? ", [\"T_ROB" : ", [\"T_") + std::to_string(i) + "\"]");
     line("PERS tasks all{" + std::to_string(tasks_) + "} := [" + members + "];");
-    if (task == 1) line("CONST jointtarget home := [[0, 0, 0, 0, 30, 0], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]];");
+    if (robots_ > 1) line("PERS tasks robots{2} := [[\"T_ROB1\"], [\"T_ROB2\"]];");
+    for (size_t i = 1; i <= sections_.size() && task <= robots_; ++i)
+        line("VAR syncident on" + std::to_string(i) + "; VAR syncident off" + std::to_string(i) + ";");
+    if (task <= robots_)
+        line("CONST jointtarget home := [[0, 0, 0, 0, 30, 0], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]];");
     for (size_t i = 1; i <= kTraps; ++i)
         writeTrap(i);
     writeFunction();
@@ -135,9 +141,13 @@ void TasksMaker::writeMain() {
     line("ClkStart watch;");
     line("CONNECT tick1 WITH onTick1;");
     line("CONNECT tick2 WITH onTick2;");
-    if (task_ == 1) {
+    if (task_ <= robots_) {
         line("ConfJ \\Off;");
         line("ConfL \\Off;");
+    }
+    for (size_t i = 1; i <= sections_.size() && task_ <= robots_; ++i) {
+        statements(choose_.below(4), 0);
+        section(i);
     }
     statements(6 + choose_.below(8), 0);
     line("TPWrite \"T" + std::to_string(task_) +
@@ -177,8 +187,8 @@ void TasksMaker::statement(int depth) {
     case 11: return isBody ? call() : print();
     case 12: return depth < 3 ? loop(depth) : compute();
     case 13: return depth < 3 ? branch(depth) : print();
-    case 14: return isBody && task_ == 1 ? move() : signal();
-    default: return isBody && task_ == 1 ? stopAndStart() : isBody ? waitForTasks() : print();
+    case 14: return isBody && task_ <= robots_ ? move() : signal();
+    default: return isBody && task_ <= robots_ ? stopAndStart() : isBody ? waitForTasks() : print();
     }
 }
 
@@ -351,21 +361,30 @@ void TasksMaker::branch(int depth) {
     line("ENDIF");
 }
 
-void TasksMaker::move() {
-    constexpr const char* kZones[] = {"fine", "z10", "z50", "z1"};
-    constexpr const char* kSpeeds[] = {"v200", "v500", "v1000", "v100"};
-    const std::string end =
-        std::string(", ") + kSpeeds[choose_.below(4)] + ", " + kZones[choose_.below(4)] + ", tool0;";
+namespace {
+
+constexpr const char* kZones[] = {"fine", "z10", "z50", "z1"};
+constexpr const char* kSpeeds[] = {"v200", "v500", "v1000", "v100"};
+
+} // namespace
+
+std::string TasksMaker::target() {
     const std::string x = std::to_string(5 * static_cast<int>(choose_.below(8))),
                       z = std::to_string(5 * static_cast<int>(choose_.below(8)));
-    const std::string target = "Offs(CalcRobT(home, tool0), -" + x + ", " + z + ", -" + z + ")";
+    return "Offs(CalcRobT(home, tool0), -" + x + ", " + z + ", -" + z + ")";
+}
+
+void TasksMaker::move() {
+    const std::string end =
+        std::string(", ") + kSpeeds[choose_.below(4)] + ", " + kZones[choose_.below(4)] + ", tool0";
+    const std::string to = target();
     switch (choose_.below(6)) {
-    case 0: return line("MoveAbsJ home" + end);
-    case 1: return line("MoveJ " + target + end);
-    case 2: return line("MoveLDO " + target + end.substr(0, end.size() - 1) + ", " + digital() + ", 1;");
+    case 0: return line("MoveAbsJ home" + end + ";");
+    case 1: return line("MoveJ " + to + end + ";");
+    case 2: return line("MoveLDO " + to + end + ", " + digital() + ", 1;");
     case 3: return line("WaitRob \\InPos;");
-    case 4: return line("MoveLSync " + target + end.substr(0, end.size() - 1) + ", \"p4\";");
-    default: return line("MoveL " + target + end);
+    case 4: return line("MoveLSync " + to + end + ", \"p4\";");
+    default: return line("MoveL " + to + end + ";");
     }
 }
 
@@ -373,6 +392,51 @@ void TasksMaker::stopAndStart() {
     line("StopMove;");
     line("WaitTime " + seconds() + ";");
     line("StartMove;");
+}
+
+// ---- Robots that move together --------------------------------------------------------------------------------------
+
+void TasksMaker::planSections() {
+    robots_ = 2;
+    for (size_t i = 1 + choose_.below(2); i > 0; --i)
+        sections_.push_back(1 + choose_.below(6));
+}
+
+/// One movement of each identity, with statements of this robot's task between them that neither move nor call.
+void TasksMaker::section(size_t number) {
+    const std::string which = std::to_string(number);
+    line("SyncMoveOn on" + which + ", robots" + (choose_.chance(20) ? " \\TimeOut:=5;" : ";"));
+    part_ = Part::Trap;
+    bool isStored = false;
+    for (size_t i = 1; i <= sections_[number - 1]; ++i) {
+        // a path put aside lasts for one movement, in all tasks the same one
+        if (isStored) line("RestoPath; StartMove;");
+        isStored = !isStored && i % 3 == 2 && number == 2;
+        if (isStored) line("StorePath \\KeepSync;");
+        statements(choose_.below(3), 1);
+        if (choose_.chance(15)) stopAndStart();
+        if (isStored && choose_.chance(30)) {
+            line("SyncMoveSuspend;");
+            line("MoveL " + target() + ", v200, fine, tool0;");
+            line("SyncMoveResume;");
+        }
+        moveTogether(static_cast<int>(number * 100 + i * 10), isStored);
+    }
+    if (isStored) line("RestoPath; StartMove;");
+    part_ = Part::Body;
+    line("SyncMoveOff off" + which + ";");
+}
+
+void TasksMaker::moveTogether(int id, bool isStop) {
+    const std::string with = " \\ID:=" + std::to_string(id) + ", " + kSpeeds[choose_.below(4)] + ", ";
+    const std::string zone = isStop ? "fine" : kZones[choose_.below(4)];
+    switch (choose_.below(9)) {
+    case 0: return line("MoveAbsJ home" + with + zone + ", tool0;");
+    case 1: return line("MoveJ " + target() + with + zone + ", tool0;");
+    case 2: return line("MoveLDO " + target() + with + zone + ", tool0, " + digital() + ", 1;");
+    case 3: return line("MoveC " + target() + ", " + target() + with + zone + ", tool0;");
+    default: return line("MoveL " + target() + with + zone + ", tool0;");
+    }
 }
 
 } // namespace rapid::fuzz

@@ -84,6 +84,22 @@ TEST_CASE("stop while standing is answered at once and holds later moves", "[mot
     CHECK(timeOf(system.takeEvents(), MotionEventKind::Started, 1) == 1000 * kMs);
 }
 
+// Manual 1.7, ClearPath: the path is thrown away, and the next movement begins where the arm is.
+TEST_CASE("a move ordered while the arm is stopped can be cleared before it begins", "[motion][system]") {
+    MotionSystem system = makeSystem();
+    system.stop();
+    system.takeEvents();
+    REQUIRE(system.enqueue(jointsTo({20, 0, 0, 0, 30, 0})).hasValue());
+    system.advanceTo(100 * kMs);
+    system.clear();
+    CHECK(system.current().joints[0] == 0);
+    CHECK(system.plannedEnd().robax[0] == 0);
+    system.start();
+    run(system);
+    CHECK(system.isIdle());
+    CHECK(system.current().joints[0] == 0);
+}
+
 TEST_CASE("stopping and starting at random never leaves the path or the limits", "[motion][system]") {
     std::mt19937_64 random(6);
     for (int n = 0; n < 20; ++n) {
