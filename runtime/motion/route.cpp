@@ -344,9 +344,9 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
     std::optional<Pose> beforeTcp, hereTcp, afterTcp;
-    stretch.middle = pointAt(middle, seed, &hereTcp);
-    const RoutePoint low = pointAt(middle - step, stretch.middle.joints, &beforeTcp);
-    const RoutePoint high = pointAt(middle + step, stretch.middle.joints, &afterTcp);
+    stretch.middle = pointAt(middle, &seed, &hereTcp);
+    const RoutePoint low = pointAt(middle - step, &stretch.middle.joints, &beforeTcp);
+    const RoutePoint high = pointAt(middle + step, &stretch.middle.joints, &afterTcp);
     differentiate(stretch, low, high, step);
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();
@@ -358,7 +358,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     } else { // at the middle, since a chord is shorter than the path in a sharp bend
         const double close = std::min(step, 1e-3);
         const auto tcpNear = [&](double place) {
-            return tcpOf(frames, pointAt(place, stretch.middle.joints), place).pos;
+            return tcpOf(frames, pointAt(place, &stretch.middle.joints), place).pos;
         };
         const Vec3 from = tcpNear(middle - close);
         const Vec3 to = tcpNear(middle + close);
@@ -420,17 +420,21 @@ std::size_t Route::ownLeg(double place) const {
 
 RoutePoint Route::at(double place) const {
     const double inside = std::clamp(place, 0.0, length());
-    return pointAt(inside, stretches_.empty() ? legs_.front().path->start().robax
-                                              : stretches_[stretchAt(inside)].middle.joints);
+    return pointAt(inside, nullptr);
 }
 
-RoutePoint Route::pointAt(double place, const Joints& seed, std::optional<Pose>* tcp) const {
+const Joints& Route::jointsNear(double place) const {
+    return stretches_.empty() ? legs_.front().path->start().robax
+                              : stretches_[stretchAt(place)].middle.joints;
+}
+
+RoutePoint Route::pointAt(double place, const Joints* near, std::optional<Pose>* tcp) const {
     const std::size_t number = ownLeg(place);
-    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, seed, tcp)
-                                                          : pointOnLeg(number, place, seed, tcp);
+    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, near, tcp)
+                                                          : pointOnLeg(number, place, near, tcp);
 }
 
-RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& seed,
+RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints* near,
                              std::optional<Pose>* tcp) const {
     const Leg& l = leg(number);
     const double distance = place - l.pathBegin();
@@ -461,6 +465,7 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     }
     Pose pose = poseIn(l, *frames, distance);
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
+    const Joints& seed = near != nullptr ? *near : jointsNear(place);
     point.joints = seed;
     point.isSolved = l.path->kinematics().inverseContinue(
         flangeFor(*frames->path, pose, point.extax, place), seed, point.joints,
@@ -469,12 +474,13 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints& see
     return point;
 }
 
-RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints& seed,
+RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints* near,
                                 std::optional<Pose>* tcp) const {
     const Corner& c = corner(number);
     const Leg& next = leg(number + 1);
     const double x = c.lengths.parameterAt(place - c.begin);
     RoutePoint point;
+    const Joints& seed = near != nullptr ? *near : jointsNear(place);
     point.joints = seed;
     point.extax = next.path->start().extax;
     if (c.kind == CornerKind::Joint) {

@@ -115,11 +115,14 @@ class Route {
     const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
     std::size_t ownLeg(double place) const;
     std::optional<double> curveRate(std::size_t own, bool inCorner) const;
+    /// The joints in the middle of the stretch at a place.
+    const Joints& jointsNear(double place) const;
     /// `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known without the angles.
-    RoutePoint pointAt(double place, const Joints& seed, std::optional<Pose>* tcp = nullptr) const;
-    RoutePoint pointOnLeg(std::size_t number, double place, const Joints& seed,
+    /// `near`: the joints at a place close by; null: those of the stretch there.
+    RoutePoint pointAt(double place, const Joints* near, std::optional<Pose>* tcp = nullptr) const;
+    RoutePoint pointOnLeg(std::size_t number, double place, const Joints* near,
                           std::optional<Pose>* tcp) const;
-    RoutePoint pointInCorner(std::size_t number, double place, const Joints& seed,
+    RoutePoint pointInCorner(std::size_t number, double place, const Joints* near,
                              std::optional<Pose>* tcp) const;
 
     void makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
