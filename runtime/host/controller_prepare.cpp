@@ -216,7 +216,6 @@ ExitStatus Controller::openRobots(const ProgramDesc& program) {
         motions_.push_back(
             std::make_unique<MotionDriver>(scheduler_, group.model, how, group.robot, motions_.size()));
         motions_.back()->setTick(options_.tick);
-        if (group.isModelAssumed) motions_.back()->assumeModel();
         motions_.back()->addListener([this, &motion = *motions_.back()](ArmChange news) {
             if (news == ArmChange::CornerLost)
                 log_.write(EventId::CornerPathFailure, motion.orderingTask(), {motion.unitName()});

@@ -69,9 +69,6 @@ class MotionDriver final : public SteppedArm {
     void setOverride(double percent);
     void setProgramOverride(double percent);
     const robot::RobotModel& model() const { return system_.model(); }
-    /// Neither configuration nor command line names the model.
-    bool isModelAssumed() const { return isModelAssumed_; }
-    void assumeModel() { isModelAssumed_ = true; }
     /// Name of the robot: "ROB_1"; "" for external units alone.
     const std::string& unitName() const { return unitName_; }
     std::size_t group() const { return group_; }
@@ -314,7 +311,6 @@ class MotionDriver final : public SteppedArm {
     Scheduler& scheduler_;
     motion::MotionSystem system_;
     std::string unitName_;
-    bool isModelAssumed_ = false;
     std::size_t group_ = 0;
     ServiceTable services_;
     EventToken next_ = 0;

@@ -68,6 +68,12 @@ std::string Doc::get(const std::string& key) const {
     return found == attr.end() ? std::string() : found->second;
 }
 
+std::pair<std::string, std::string> splitFirstWord(const std::string& text) {
+    const size_t space = text.find(' ');
+    if (space == std::string::npos) return {text, ""};
+    return {text.substr(0, space), text.substr(std::min(text.find_first_not_of(' ', space), text.size()))};
+}
+
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem) {
     const auto comment = rapid::syntax::readDeclarationComment(text.substr(0, offset));
     Doc doc;

@@ -36,13 +36,6 @@ std::string typeText(const TypeInfo& type) {
     return out;
 }
 
-/// The word after "@tag " and the rest of the line.
-std::pair<std::string, std::string> firstWord(const std::string& text) {
-    const size_t space = text.find(' ');
-    if (space == std::string::npos) return {text, ""};
-    return {text.substr(0, space), text.substr(text.find_first_not_of(' ', space))};
-}
-
 /// Text that Markdown must not read as markup, inside a cell of a table too.
 std::string escaped(std::string_view text) {
     std::string out;
@@ -59,9 +52,9 @@ std::string markdown(const std::string& doc) {
     std::string text, items, examples;
     std::string* last = &text; // continuation lines go where the line before them went
     for (std::string line; std::getline(lines, line);) {
-        const auto [tag, rest] = firstWord(line);
+        const auto [tag, rest] = splitFirstWord(line);
         if (tag == "@param" || tag == "@error") {
-            const auto [name, meaning] = firstWord(rest);
+            const auto [name, meaning] = splitFirstWord(rest);
             items += fmt::format("- `{}`: {}\n", name, escaped(meaning));
             last = &items;
         } else if (tag == "@return") {

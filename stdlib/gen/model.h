@@ -104,6 +104,9 @@ Model readDeclarations(const std::vector<std::string>& paths);
 /// attribute.
 Doc readDocumentation(std::string_view text, uint32_t offset, std::string& problem);
 
+/// "@param File  its path": the first word, and the rest without the blanks before it.
+std::pair<std::string, std::string> splitFirstWord(const std::string& text);
+
 /// Broken rules of declarations, each as in Model::errors: documentation (summary, parameters, result,
 /// errors), attributes that every routine has, names in `raises:` and `deferred:`, numbers of errors. Names in one declaration may
 /// be anywhere in the model.

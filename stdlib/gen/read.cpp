@@ -94,15 +94,23 @@ class Reader {
     }
 
     void readDecl(const syn::Decl& decl) {
-        if (decl.kind == syn::NodeKind::Data) enter(Stage::Data, decl);
-        if (decl.kind == syn::NodeKind::Routine) enter(Stage::Routines, decl);
-        if (decl.kind == syn::NodeKind::Record || decl.kind == syn::NodeKind::Alias)
-            enter(Stage::Types, decl);
         switch (decl.kind) {
-        case syn::NodeKind::Record: readRecord(syn::as<syn::RecordDecl>(decl)); break;
-        case syn::NodeKind::Alias: readAlias(syn::as<syn::AliasDecl>(decl)); break;
-        case syn::NodeKind::Data: readData(syn::as<syn::DataDecl>(decl)); break;
-        case syn::NodeKind::Routine: readRoutine(syn::as<syn::RoutineDecl>(decl)); break;
+        case syn::NodeKind::Record:
+            enter(Stage::Types, decl);
+            readRecord(syn::as<syn::RecordDecl>(decl));
+            break;
+        case syn::NodeKind::Alias:
+            enter(Stage::Types, decl);
+            readAlias(syn::as<syn::AliasDecl>(decl));
+            break;
+        case syn::NodeKind::Data:
+            enter(Stage::Data, decl);
+            readData(syn::as<syn::DataDecl>(decl));
+            break;
+        case syn::NodeKind::Routine:
+            enter(Stage::Routines, decl);
+            readRoutine(syn::as<syn::RoutineDecl>(decl));
+            break;
         default: break; // reported by the parser
         }
     }

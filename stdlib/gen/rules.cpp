@@ -28,18 +28,19 @@ std::string bare(std::string text) {
     return text;
 }
 
+std::string summaryOf(const Doc& doc) {
+    return doc.text.substr(0, doc.text.find('\n'));
+}
+
 Documented documentedIn(const Doc& doc) {
     Documented out;
     std::istringstream lines(doc.text);
     for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string tag, name, rest;
-        words >> tag >> name;
-        std::getline(words >> std::ws, rest);
-        if (tag == "@param" && !rest.empty()) out.params.push_back(name);
+        const auto [tag, text] = splitFirstWord(line);
+        const auto [name, meaning] = splitFirstWord(text);
+        if (tag == "@param" && !meaning.empty()) out.params.push_back(name);
         if (tag == "@error") out.errors.push_back(name);
-        if (tag == "@return" && out.result.empty())
-            out.result = bare(rest.empty() ? name : name + " " + rest);
+        if (tag == "@return" && out.result.empty()) out.result = bare(text);
     }
     return out;
 }
@@ -65,7 +66,7 @@ class Rules {
 
     /// A summary of its own, in words: not empty, not copied from another name of the kind.
     void checkSummary(const Place& at, const std::string& name, const std::string& kind, const Doc& doc) {
-        const std::string line = doc.text.substr(0, doc.text.find('\n'));
+        const std::string line = summaryOf(doc);
         if (line.empty() || line.starts_with('@')) {
             fail(at, name, "has no summary: write a line that starts with !! above it, before every @ line");
             return;
@@ -102,8 +103,7 @@ class Rules {
         checkParams(routine, documented);
         if (!routine.returnType.empty() && documented.result.empty())
             fail(routine.place, routine.name, "lacks '!! @return' with what it returns");
-        if (!documented.result.empty() &&
-            documented.result == bare(routine.doc.text.substr(0, routine.doc.text.find('\n'))))
+        if (!documented.result.empty() && documented.result == bare(summaryOf(routine.doc)))
             fail(routine.place, routine.name, "'@return' repeats the summary");
         checkErrors(routine, documented);
     }

@@ -40,8 +40,7 @@ std::string TasksMaker::module(size_t task) {
         line(data);
     std::string members;
     for (size_t i = 1; i <= tasks_; ++i)
-        members +=
-            (i == 1 ? "[\"T_ROB1\"]" : (i <= robots_ ? ", [\"T_ROB" : ", [\"T_") + std::to_string(i) + "\"]");
+        members += (i == 1 ? "[\"" : ", [\"") + named(i <= robots_ ? "T_ROB" : "T_", i) + "\"]";
     line("PERS tasks all{" + std::to_string(tasks_) + "} := [" + members + "];");
     if (robots_ > 1) line("PERS tasks robots{2} := [[\"T_ROB1\"], [\"T_ROB2\"]];");
     for (size_t i = 1; i <= sections_.size() && task <= robots_; ++i)
@@ -429,13 +428,13 @@ void TasksMaker::section(size_t number) {
 
 void TasksMaker::moveTogether(int id, bool isStop) {
     const std::string with = " \\ID:=" + std::to_string(id) + ", " + kSpeeds[choose_.below(4)] + ", ";
-    const std::string zone = isStop ? "fine" : kZones[choose_.below(4)];
+    const std::string end = with + (isStop ? "fine" : kZones[choose_.below(4)]) + ", tool0";
     switch (choose_.below(9)) {
-    case 0: return line("MoveAbsJ home" + with + zone + ", tool0;");
-    case 1: return line("MoveJ " + target() + with + zone + ", tool0;");
-    case 2: return line("MoveLDO " + target() + with + zone + ", tool0, " + digital() + ", 1;");
-    case 3: return line("MoveC " + target() + ", " + target() + with + zone + ", tool0;");
-    default: return line("MoveL " + target() + with + zone + ", tool0;");
+    case 0: return line("MoveAbsJ home" + end + ";");
+    case 1: return line("MoveJ " + target() + end + ";");
+    case 2: return line("MoveLDO " + target() + end + ", " + digital() + ", 1;");
+    case 3: return line("MoveC " + target() + ", " + target() + end + ";");
+    default: return line("MoveL " + target() + end + ";");
     }
 }
 

@@ -154,13 +154,14 @@ Status failMotion(TaskCore* task, const motion::MotionError& error) {
     constexpr Kind kOfTheModel[] = {Kind::Unreachable, Kind::JointOutOfRange, Kind::NoSuchConfiguration,
                                     Kind::ConfigurationMismatch, Kind::Singularity};
     const Status number = motionErrno(error);
-    const MotionDriver& driver = motionOf(task);
+    const Controller& controller = taskOf(task).controller();
+    const MotionGroup& group = controller.units().groups()[motionOf(task).group()];
     const bool dependsOnModel =
         std::find(std::begin(kOfTheModel), std::end(kOfTheModel), error.kind) != std::end(kOfTheModel);
-    if (!driver.isModelAssumed() || !dependsOnModel) return fail(task, number, error.message());
+    if (!group.isModelAssumed || !dependsOnModel) return fail(task, number, error.message());
     return fail(task, number,
                 fmt::format("{}; no robot is given, so this is the {}: name yours with --robot",
-                            error.message(), driver.model().name));
+                            error.message(), group.model.name));
 }
 
 } // namespace rt::lib
