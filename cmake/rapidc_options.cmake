@@ -53,7 +53,7 @@ if(RAPIDC_COVERAGE)
   add_link_options(-fprofile-instr-generate)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  add_link_options(-fuse-ld=lld)
+  add_link_options(-fuse-ld=lld -Wl,-z,pack-relative-relocs) # short tables of relocations: programs start sooner
 endif()
 
 set(STANDARD_HEADERS ${CMAKE_CURRENT_LIST_DIR}/standard_headers.h)

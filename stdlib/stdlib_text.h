@@ -10,7 +10,7 @@ namespace rapid::stdlib {
 struct StdlibSource {
     const char* name;      ///< "decl/math.sysx"
     std::string_view text; ///< UTF-8
-    /// The same lines without the text of the documentation, for whoever only checks and compiles.
+    /// The same lines without the documentation, for commands that only check and compile.
     std::string_view declarations;
 };
 

@@ -24,12 +24,6 @@ std::string_view firstWord(std::string_view text) {
                        static_cast<size_t>(std::find_if(text.begin(), text.end(), isSpace) - text.begin()));
 }
 
-/// "effects:": lower-case letters and a colon.
-bool isKey(std::string_view word) {
-    return word.size() > 1 && word.back() == ':' &&
-           std::all_of(word.begin(), word.end() - 1, [](char c) { return c >= 'a' && c <= 'z'; });
-}
-
 void addToValue(std::string_view words, DeclarationComment& out) {
     if (words.empty()) return;
     if (out.attributes.empty()) {
@@ -41,21 +35,26 @@ void addToValue(std::string_view words, DeclarationComment& out) {
     value += words;
 }
 
+/// Where the key begins that ends at a colon ("effects:", lower-case letters); the place of the colon if none does.
+size_t keyBefore(std::string_view line, size_t colon) {
+    size_t begin = colon;
+    while (begin > 0 && line[begin - 1] >= 'a' && line[begin - 1] <= 'z')
+        --begin;
+    const bool isWord =
+        (begin == 0 || isSpace(line[begin - 1])) && (colon + 1 == line.size() || isSpace(line[colon + 1]));
+    return isWord ? begin : colon;
+}
+
 void readAttributes(std::string_view line, DeclarationComment& out) {
-    std::string_view words; // of the present value
-    while (!(line = trimmed(line)).empty()) {
-        const std::string_view word = firstWord(line);
-        line.remove_prefix(word.size());
-        if (isKey(word)) {
-            addToValue(words, out);
-            words = {};
-            out.attributes.push_back({word.substr(0, word.size() - 1), {}});
-        } else {
-            const char* begin = words.empty() ? word.data() : words.data();
-            words = {begin, static_cast<size_t>(word.data() + word.size() - begin)};
-        }
+    size_t value = 0; // where the words of the present value begin
+    for (size_t colon = line.find(':'); colon != std::string_view::npos; colon = line.find(':', colon + 1)) {
+        const size_t key = keyBefore(line, colon);
+        if (key == colon) continue;
+        addToValue(trimmed(line.substr(value, key - value)), out);
+        out.attributes.push_back({line.substr(key, colon - key), {}});
+        value = colon + 1;
     }
-    addToValue(words, out);
+    addToValue(trimmed(line.substr(value)), out);
 }
 
 } // namespace
@@ -67,27 +66,30 @@ std::string_view DeclarationComment::get(std::string_view key) const {
 }
 
 DeclarationComment readDeclarationComment(std::string_view before) {
-    std::vector<std::string_view> lines;
     before = before.substr(0, before.find_last_not_of(" \t") + 1); // the indentation of the declaration
-    if (!before.empty() && before.back() == '\n') before.remove_suffix(1);
-    while (!before.empty()) {
-        const size_t end = before.rfind('\n');
-        const std::string_view line = trimmed(before.substr(end == std::string_view::npos ? 0 : end + 1));
+    if (before.ends_with('\n')) before.remove_suffix(1);
+    size_t begin = before.size(); // of the comment
+    for (size_t end = begin; end > 0;) {
+        const size_t start = before.substr(0, end).rfind('\n') + 1; // 0 for the first line
+        const std::string_view line = trimmed(before.substr(start, end - start));
         if (!line.starts_with("!!") && !line.starts_with("!@")) break;
-        lines.push_back(line);
-        before = before.substr(0, end == std::string_view::npos ? 0 : end);
+        begin = start;
+        end = start == 0 ? 0 : start - 1;
     }
     DeclarationComment out;
     constexpr size_t kUsual = 8;
     out.attributes.reserve(kUsual);
-    for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-        const std::string_view rest = trimmed(line->substr(2));
-        if ((*line)[1] == '@') {
-            readAttributes(rest, out);
+    for (std::string_view rest = before.substr(begin); !rest.empty();) {
+        const size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = trimmed(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        const std::string_view words = trimmed(line.substr(2));
+        if (line[1] == '@') {
+            readAttributes(words, out);
             continue;
         }
         if (!out.text.empty()) out.text += '\n';
-        out.text += rest;
+        out.text += words;
     }
     return out;
 }

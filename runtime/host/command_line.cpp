@@ -8,6 +8,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace rt {
@@ -235,10 +236,21 @@ Command CommandLine::addCommand(const std::string& name, const std::string& abou
     return Command(*command);
 }
 
-int CommandLine::run(int argc, const char* const* argv, const std::function<int()>& body) const {
+void CommandLine::addCommands(const std::function<bool(const CommandEntry&)>& wanted) {
+    for (const CommandEntry& entry : commands_)
+        if (wanted(entry)) entry.add(*this);
+}
+
+int CommandLine::run(int argc, const char* const* argv, const std::function<int()>& body) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    const auto isChosen = [first](const CommandEntry& entry) { return first == entry.name; };
+    const bool chooses = std::any_of(commands_.begin(), commands_.end(), isChosen);
+    addCommands([&](const CommandEntry& entry) { return !chooses || isChosen(entry); });
     try {
         app_->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (chooses && error.get_exit_code() != 0)
+            addCommands([&](const CommandEntry& entry) { return !isChosen(entry); });
         return report(*app_, error, name_);
     }
     const std::function<int()>& rest = chosen_ ? chosen_ : body;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,14 @@ class Command {
     CLI::App* app_;
 };
 
+class CommandLine;
+
+/// A command and the function that adds it.
+struct CommandEntry {
+    const char* name;
+    void (*add)(CommandLine& line);
+};
+
 class CommandLine {
   public:
     /// `name`: what messages begin with.
@@ -66,13 +75,21 @@ class CommandLine {
     /// One of the commands must be given then. `body` returns the exit status.
     Command addCommand(const std::string& name, const std::string& about, std::function<int()> body);
 
+    /// The commands of the executable, in the order of the help. Options take time to add, so only those of the chosen command
+    /// are added, unless the help or a message needs the others.
+    void setCommands(std::span<const CommandEntry> commands) { commands_ = commands; }
+
     /// Reads the arguments, calls the command that is chosen, or else `body`, and returns its exit status. Prints "NAME:
     /// what is wrong; where help is" to stderr and returns BadUsage, or prints the help that was asked for.
-    int run(int argc, const char* const* argv, const std::function<int()>& body = {}) const;
+    int run(int argc, const char* const* argv, const std::function<int()>& body = {});
 
   private:
+    /// Adds the commands for which `wanted` says so.
+    void addCommands(const std::function<bool(const CommandEntry&)>& wanted);
+
     std::string name_;
     std::unique_ptr<CLI::App> app_;
+    std::span<const CommandEntry> commands_;
     std::function<int()> chosen_; ///< body of the command that was read
 };
 

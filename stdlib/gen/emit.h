@@ -26,7 +26,8 @@ std::string emitTypes(const Model& model);
 /// Assertions that C++ lays out every record of stdlib_types.h as compiled code does (layoutOf).
 std::string emitLayoutChecks(const Model& model);
 std::string emitConstants(const Model& model);
-std::string emitNatives(const Model& model);
+/// The prototypes of the natives that one file declares: a changed declaration compiles only what includes them again.
+std::string emitNatives(const Model& model, const SourceText& source);
 std::string emitNativeTable(const Model& model);
 std::string emitErrorTable(const Model& model);
 std::string emitSources(const Model& model);

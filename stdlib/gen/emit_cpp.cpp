@@ -187,12 +187,12 @@ std::string emitConstants(const Model& model) {
     return out + "} // namespace rt::k\n";
 }
 
-std::string emitNatives(const Model& model) {
+std::string emitNatives(const Model& model, const SourceText& source) {
     std::string out(kHeader);
-    out += "#pragma once\n// One prototype for every native routine; the rules stand in stdlib/README.md.\n\n"
-           "#include \"stdlib_types.h\"\n\nextern \"C\" {\n";
+    out += "#pragma once\n// One prototype for every native routine of " + source.name +
+           "; the rules are in stdlib/README.md.\n\n#include \"stdlib_types.h\"\n\nextern \"C\" {\n";
     for (const Routine& routine : model.routines)
-        if (hasPrototype(routine)) out += prototype(model, routine);
+        if (routine.place.file == source.path && hasPrototype(routine)) out += prototype(model, routine);
     return out + "}\n";
 }
 
@@ -236,47 +236,37 @@ std::string emitErrorTable(const Model& model) {
 
 namespace {
 
-/// A constant of bytes: string literals have a length limit in the standard.
-std::string byteArray(const std::string& name, std::string_view text) {
-    std::string out = fmt::format("const unsigned char {}[] = {{", name);
-    for (size_t k = 0; k < text.size(); ++k)
-        out += fmt::format("{}{},", k % 32 == 0 ? "\n    " : "", static_cast<unsigned char>(text[k]));
-    return out + "\n    0};\n";
-}
-
-/// The same lines; those of the documentation keep their mark only.
+/// The same lines; those of the documentation are empty, or a mark where attributes above them must reach the declaration.
 std::string withoutDocumentation(std::string_view text) {
     std::string out;
+    bool hasAttributes = false; // the comment so far
     while (!text.empty()) {
         const size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
-        const bool documents =
-            line.substr(std::min(line.find_first_not_of(' '), line.size())).starts_with("!!");
-        out += documents ? "!!" : line;
+        const std::string_view words = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+        const bool documents = words.starts_with("!!");
+        hasAttributes = words.starts_with("!@") || (documents && hasAttributes);
+        out += !documents ? line : hasAttributes ? "!!" : "";
         if (end < text.size()) out += '\n';
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return out;
 }
 
+std::string rawLiteral(std::string_view text) {
+    return fmt::format("R\"rapid({})rapid\"sv", text);
+}
+
 } // namespace
 
 std::string emitSources(const Model& model) {
     std::string out(kHeader);
-    out += "\n#include \"stdlib/stdlib_text.h\"\n\nnamespace rapid::stdlib {\n\nnamespace {\n";
-    std::vector<std::string> lean;
-    for (size_t i = 0; i < model.sources.size(); ++i) {
-        lean.push_back(withoutDocumentation(model.sources[i].text));
-        out += byteArray(fmt::format("kText{}", i), model.sources[i].text);
-        out += byteArray(fmt::format("kDeclarations{}", i), lean[i]);
-    }
-    out += "std::string_view view(const unsigned char* bytes, size_t size) {\n"
-           "    return {reinterpret_cast<const char*>(bytes), size};\n}\n} // namespace\n\n"
+    out += "\n#include \"stdlib/stdlib_text.h\"\n\nnamespace rapid::stdlib {\n\nusing namespace "
+           "std::string_view_literals;\n\n"
            "std::span<const StdlibSource> sources() {\n    static const StdlibSource all[] = {\n";
-    for (size_t i = 0; i < model.sources.size(); ++i)
-        out +=
-            fmt::format("        {{{0}, view(kText{1}, {2}), view(kDeclarations{1}, {3})}},\n",
-                        quotedText(model.sources[i].name), i, model.sources[i].text.size(), lean[i].size());
+    for (const SourceText& source : model.sources)
+        out += fmt::format("        {{{}, {}, {}}},\n", quotedText(source.name), rawLiteral(source.text),
+                           rawLiteral(withoutDocumentation(source.text)));
     if (model.sources.empty()) out += "        {\"\", {}, {}}\n";
     return out + fmt::format("    }};\n    return std::span<const StdlibSource>(all, {});\n}}\n\n"
                              "}} // namespace rapid::stdlib\n",

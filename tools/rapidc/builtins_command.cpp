@@ -5,11 +5,14 @@
 #include "tools/rapidc/commands.h"
 #include "tools/rapidc/usage.h"
 
+#include "config/letter_case.h"
 #include "config/nearest.h"
 #include "frontend/sema/names.h"
+#include "frontend/syntax/declaration_comment.h"
 #include "frontend/syntax/tree_walk.h"
 #include "runtime/host/run_options.h"
 #include "stdlib/native_table.h"
+#include "stdlib/stdlib_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -52,11 +55,14 @@ std::vector<BuiltinRow> collect(const rapid::sema::CheckedProgram& program) {
                             attributeOf(*module, data->decl, "manual:"), "implemented"});
         }
     }
+    return rows;
+}
+
+void sort(std::vector<BuiltinRow>& rows) {
     std::sort(rows.begin(), rows.end(), [](const BuiltinRow& a, const BuiltinRow& b) {
         const int order = a.kind.compare(b.kind);
         return order != 0 ? order < 0 : a.name < b.name;
     });
-    return rows;
 }
 
 void printTsv(const std::vector<BuiltinRow>& rows) {
@@ -107,33 +113,19 @@ bool matches(std::string_view pattern, std::string_view name) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-/// Prints the lines of a text as `shown` gives them; nothing for those it answers by nullopt.
-template <class Shown> void printLines(std::string_view text, Shown&& shown) {
+/// Prints the lines of a declaration without the indentation of the library.
+void printDeclaration(std::string_view text) {
+    constexpr size_t kIndent = 3;
     while (!text.empty()) {
         const size_t end = std::min(text.find('\n'), text.size());
-        if (const std::optional<std::string_view> line = shown(text.substr(0, end)))
-            fmt::print("{}\n", *line);
+        const std::string_view line = text.substr(0, end);
+        fmt::print("{}\n", line.substr(std::min({line.find_first_not_of(' '), line.size(), kIndent})));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
 }
 
-/// Without the spaces before it, but for those beyond `most`.
-std::string_view outdented(std::string_view line, size_t most) {
-    return line.substr(std::min({line.find_first_not_of(' '), line.size(), most}));
-}
-
-std::optional<std::string_view> documentationLine(std::string_view line) {
-    line = outdented(line, line.size());
-    return line.starts_with("!! ") ? std::optional(line.substr(3)) : std::nullopt;
-}
-
-std::optional<std::string_view> declarationLine(std::string_view line) {
-    constexpr size_t kIndent = 3; // of the library
-    return outdented(line, kIndent);
-}
-
-const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, std::string_view folded) {
-    const auto is = [&](const auto* symbol) { return rapid::sema::foldName(symbol->name) == folded; };
+const rapid::syntax::Node* findDeclaration(const rapid::sema::Module& module, std::string_view name) {
+    const auto is = [&](const auto* symbol) { return rapid::config::sameName(symbol->name, name); };
     for (const auto* type : module.types)
         if (is(type)) return type->decl;
     for (const auto* data : module.data)
@@ -152,18 +144,32 @@ void printOrigin(const rapid::sema::Module& module, const rapid::syntax::Node* d
     if (confidence == "low") fmt::print("The form is not confirmed.\n");
 }
 
+/// Prints the documentation above a line of a module of the library. The module was read without it, in the same lines.
+void printDocumentation(std::string_view module, uint32_t line) {
+    const auto& sources = rapid::stdlib::sources();
+    const auto source =
+        std::find_if(sources.begin(), sources.end(),
+                     [&](const rapid::stdlib::StdlibSource& one) { return one.name == module; });
+    if (source == sources.end()) return;
+    size_t above = 0; // bytes of the text above
+    for (uint32_t number = 1; number < line; ++number)
+        above = source->text.find('\n', above) + 1;
+    const std::string text = rapid::syntax::readDeclarationComment(source->text.substr(0, above)).text;
+    if (!text.empty()) fmt::print("{}\n", text);
+}
+
 /// Its kind, its state and its declaration.
 void describe(const rapid::sema::CheckedProgram& program, const BuiltinRow& row) {
     fmt::print("{}: {}, {}{}\n", row.name, row.kind, row.status,
                row.chapter == "-" ? std::string() : fmt::format(", manual {}", row.chapter));
     for (const rapid::sema::Module* module : program.predefinedModules) {
-        const rapid::syntax::Node* decl = findDeclaration(*module, rapid::sema::foldName(row.name));
+        const rapid::syntax::Node* decl = findDeclaration(*module, row.name);
         if (!decl) continue;
-        printLines(rapid::syntax::gapBefore(*module->tree, decl->first), documentationLine);
-        printOrigin(*module, decl);
+        const rapid::SourceFile& source = *module->tree->source;
         const rapid::SourceRange where = module->tree->range(*decl);
-        printLines(module->tree->source->text().substr(where.begin, where.end - where.begin),
-                   declarationLine);
+        printDocumentation(source.path(), source.lineColumn(where.begin).line);
+        printOrigin(*module, decl);
+        printDeclaration(source.text().substr(where.begin, where.end - where.begin));
     }
 }
 
@@ -182,21 +188,22 @@ std::string nearest(const std::vector<BuiltinRow>& rows, const std::string& name
 bool select(const std::vector<BuiltinRow>& rows, const std::vector<std::string>& names,
             std::vector<BuiltinRow>& selected) {
     for (const std::string& name : names) {
+        const bool pattern = isPattern(name);
         const std::string folded = rapid::sema::foldName(name);
         bool any = false;
         for (const BuiltinRow& row : rows) {
-            const std::string other = rapid::sema::foldName(row.name);
-            if (isPattern(name) ? !matches(folded, other) : folded != other) continue;
+            if (pattern ? !matches(folded, rapid::sema::foldName(row.name))
+                        : !rapid::config::sameName(name, row.name))
+                continue;
             any = true;
             const bool known = std::any_of(selected.begin(), selected.end(),
                                            [&](const BuiltinRow& one) { return one.name == row.name; });
             if (!known) selected.push_back(row);
-            if (!isPattern(name)) break;
+            if (!pattern) break;
         }
         if (any) continue;
         fmt::print(stderr, "rapidc builtins: nothing predefined {} '{}'{}\n",
-                   isPattern(name) ? "matches" : "has the name", name,
-                   isPattern(name) ? std::string() : nearest(rows, name));
+                   pattern ? "matches" : "has the name", name, pattern ? std::string() : nearest(rows, name));
         return false;
     }
     return true;
@@ -204,15 +211,14 @@ bool select(const std::vector<BuiltinRow>& rows, const std::vector<std::string>&
 
 /// Without names everything; names are described, patterns that mean several are listed.
 int show(const std::string& format, const std::vector<std::string>& names) {
-    Inputs inputs;
-    inputs.documented = !names.empty();
-    const auto compilation = checkInputs(inputs);
-    const std::vector<BuiltinRow> rows = collect(*compilation->program);
+    const auto compilation = checkInputs(Inputs());
+    std::vector<BuiltinRow> rows = collect(*compilation->program);
+    const bool several = names.empty() || std::any_of(names.begin(), names.end(), isPattern);
+    if (several) sort(rows);
     std::vector<BuiltinRow> selected;
     if (!select(rows, names, selected)) return kBadUsage;
     if (names.empty()) selected = rows;
-    const bool listed =
-        names.empty() || (std::any_of(names.begin(), names.end(), isPattern) && selected.size() > 1);
+    const bool listed = names.empty() || (several && selected.size() > 1);
     if (format == "tsv")
         printTsv(selected);
     else if (listed)

@@ -8,6 +8,21 @@
 
 #include <system_error>
 
+namespace {
+
+constexpr rt::CommandEntry kCommands[] = {
+    {"check", rapidc::addCheckCommand},       {"build", rapidc::addBuildCommand},
+    {"run", rapidc::addRunCommand},           {"test", rapidc::addTestCommand},
+    {"emit", rapidc::addEmitCommand},         {"explain", rapidc::addExplainCommand},
+    {"builtins", rapidc::addBuiltinsCommand}, {"signals", rapidc::addSignalsCommand},
+    {"robots", rapidc::addRobotsCommand},     {"fmt", rapidc::addFmtCommand},
+    {"rename", rapidc::addRenameCommand},     {"set-value", rapidc::addSetValueCommand},
+    {"lsp", rapidc::addLspCommand},           {"dap", rapidc::addDapCommand},
+    {"serve", rapidc::addServeCommand},       {"compile-unit", rapidc::addCompileUnitCommand},
+};
+
+} // namespace
+
 int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of memory may end it
     rt::guardLimits("rapidc");
     codegen::guardMemory(rt::endOutOfMemory);
@@ -15,22 +30,7 @@ int main(int argc, char** argv) { // NOLINT(bugprone-exception-escape): out of m
     rt::CommandLine line("rapidc",
                          "rapidc compiles ABB RAPID to native code and runs it on a virtual controller");
     line.setVersion("rapidc " RAPIDC_VERSION);
-    rapidc::addCheckCommand(line);
-    rapidc::addBuildCommand(line);
-    rapidc::addRunCommand(line);
-    rapidc::addTestCommand(line);
-    rapidc::addEmitCommand(line);
-    rapidc::addExplainCommand(line);
-    rapidc::addBuiltinsCommand(line);
-    rapidc::addSignalsCommand(line);
-    rapidc::addRobotsCommand(line);
-    rapidc::addFmtCommand(line);
-    rapidc::addRenameCommand(line);
-    rapidc::addSetValueCommand(line);
-    rapidc::addLspCommand(line);
-    rapidc::addDapCommand(line);
-    rapidc::addServeCommand(line);
-    rapidc::addCompileUnitCommand(line);
+    line.setCommands(kCommands);
     int status = static_cast<int>(rt::ExitStatus::BadUsage);
     try {
         status = line.run(argc, argv);

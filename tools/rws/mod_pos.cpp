@@ -7,7 +7,7 @@
 #include "tools/service/data_path.h"
 #include "tools/service/symbols.h"
 
-#include "stdlib_natives.h"
+#include "natives/positions.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <system_error>
 
+namespace fs = std::filesystem;
+
 namespace {
 
 bool writeIfChanged(const std::string& path, const std::string& text) {
@@ -36,11 +38,14 @@ bool writeAll(const stdlibgen::Model& model, const std::string& folder) {
     bool ok = writeIfChanged(folder + "/stdlib_types.h", emitTypes(model));
     ok &= writeIfChanged(folder + "/layout_checks.cpp", emitLayoutChecks(model));
     ok &= writeIfChanged(folder + "/stdlib_constants.h", emitConstants(model));
-    ok &= writeIfChanged(folder + "/stdlib_natives.h", emitNatives(model));
     ok &= writeIfChanged(folder + "/native_table.cpp", emitNativeTable(model));
     ok &= writeIfChanged(folder + "/error_table.cpp", emitErrorTable(model));
     ok &= writeIfChanged(folder + "/stdlib_sources.cpp", emitSources(model));
     ok &= writeIfChanged(folder + "/builtins.json", emitJson(model));
+    for (const stdlibgen::SourceText& source : model.sources)
+        if (source.name.starts_with("decl/"))
+            ok &= writeIfChanged(folder + "/natives/" + fs::path(source.name).stem().string() + ".h",
+                                 emitNatives(model, source));
     return ok;
 }
 
@@ -65,7 +70,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s\n", problem.c_str());
     if (!problems.empty()) return 2;
     std::error_code code;
-    std::filesystem::create_directories(target, code); // a failure shows when a file is written
+    fs::create_directories(mode == "--out" ? target + "/natives" : target,
+                           code); // a failure shows when a file is written
     const bool ok = mode == "--out" ? writeAll(model, target) : writeReference(model, target);
     return ok ? 0 : 1;
 }

@@ -3,7 +3,8 @@
 #include "stdlib/impl/motion/corrections.h"
 #include "stdlib/impl/motion/move_order.h"
 
-#include "stdlib_natives.h"
+#include "natives/arc_moves.h"
+#include "natives/move.h"
 
 using namespace rt;
 

@@ -7,8 +7,8 @@
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/arc.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

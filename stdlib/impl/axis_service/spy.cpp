@@ -7,8 +7,8 @@
 #include "runtime/base/text_util.h"
 #include "runtime/sched/step_hook.h"
 
+#include "natives/calibration.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,9 @@
 
 #include "runtime/sim/surroundings.h"
 
+#include "natives/additional.h"
+#include "natives/calibration.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <array>
 #include <cmath>

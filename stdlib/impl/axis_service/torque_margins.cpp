@@ -6,7 +6,7 @@
 #include "stdlib/impl/motion/torques.h"
 #include "stdlib/impl/motion/units.h"
 
-#include "stdlib_natives.h"
+#include "natives/axes.h"
 
 #include <algorithm>
 #include <array>

@@ -6,8 +6,9 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/calibration.h"
+#include "natives/matrix.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <Eigen/Geometry>
 

@@ -5,8 +5,8 @@
 #include "stdlib/impl/conveyor/tracking.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/conveyor.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include "stdlib/impl/support/task_asked.h"
 #include "stdlib/impl/support/type_match.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <cstring>

@@ -6,8 +6,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/type_match.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -6,8 +6,9 @@
 #include "stdlib/impl/rawbytes/raw_bytes.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/devices.h"
+#include "natives/rawbytes.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <boost/crc.hpp>
 #include <fmt/format.h>

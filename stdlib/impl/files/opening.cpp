@@ -5,8 +5,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/time/calendar.h"
 
+#include "natives/devices.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

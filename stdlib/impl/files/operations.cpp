@@ -7,8 +7,9 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/time/calendar.h"
 
+#include "natives/files.h"
+#include "natives/time.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include "stdlib/impl/support/utf8.h"
 #include "stdlib/impl/support/written_value.h"
 
+#include "natives/devices.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

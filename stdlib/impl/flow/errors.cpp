@@ -17,8 +17,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "natives/errors.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

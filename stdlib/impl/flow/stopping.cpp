@@ -4,8 +4,8 @@
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/program_flow.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

@@ -5,8 +5,9 @@
 #include "stdlib/impl/support/endless_poll.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/motion_settings.h"
+#include "natives/waiting.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include "stdlib/impl/grippers/smart_gripper.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/grippers.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

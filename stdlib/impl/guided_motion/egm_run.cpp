@@ -5,8 +5,8 @@
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/guided_motion.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <utility>

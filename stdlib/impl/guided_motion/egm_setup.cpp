@@ -9,8 +9,8 @@
 #include "stdlib/impl/sockets/sockets.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/guided_motion.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include "config/text_util.h"
 

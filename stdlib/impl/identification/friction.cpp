@@ -5,8 +5,8 @@
 #include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/servo_tools.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,9 @@
 
 #include "runtime/sim/surroundings.h"
 
+#include "natives/axes.h"
+#include "natives/motion_misc.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/interrupts.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

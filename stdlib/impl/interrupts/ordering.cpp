@@ -7,8 +7,8 @@
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/interrupts.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <array>
 #include <memory>

@@ -6,8 +6,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/utf8.h"
 
+#include "natives/interrupts.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <array>
 #include <cstring>

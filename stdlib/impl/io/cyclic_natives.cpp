@@ -8,8 +8,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
 
+#include "natives/io_signals.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <map>
 

@@ -4,8 +4,8 @@
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/io_signals.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cstring>
 

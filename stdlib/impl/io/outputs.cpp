@@ -3,8 +3,8 @@
 #include "stdlib/impl/io/signals.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/io_signals.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 using lib::ioStatus;

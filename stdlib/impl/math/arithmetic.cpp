@@ -4,8 +4,8 @@
 #include "stdlib/impl/math/rounding.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/math.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <iterator>

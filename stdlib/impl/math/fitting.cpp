@@ -3,8 +3,8 @@
 #include "stdlib/impl/math/matrix.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/matrix.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -4,8 +4,9 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/motion_settings.h"
+#include "natives/positions.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

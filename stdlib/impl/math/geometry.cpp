@@ -6,8 +6,9 @@
 #include "stdlib/impl/support/finite.h"
 #include "stdlib/impl/support/inlined.h"
 
+#include "natives/math.h"
+#include "natives/positions.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 using namespace rt::lib;

@@ -4,8 +4,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/matrix.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>

@@ -10,8 +10,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/native_table.h"
 
+#include "natives/various.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cstring>
 #include <fmt/format.h>

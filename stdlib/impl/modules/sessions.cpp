@@ -3,8 +3,8 @@
 #include "stdlib/impl/modules/loading.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/various.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <deque>
 #include <fmt/format.h>

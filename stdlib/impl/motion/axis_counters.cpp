@@ -5,7 +5,7 @@
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/motion/units.h"
 
-#include "stdlib_natives.h"
+#include "natives/additional.h"
 
 #include <cmath>
 #include <optional>

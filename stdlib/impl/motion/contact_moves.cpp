@@ -6,8 +6,8 @@
 
 #include "runtime/sim/surroundings.h"
 
+#include "natives/additional.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <memory>
 #include <utility>

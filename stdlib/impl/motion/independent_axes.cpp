@@ -11,8 +11,8 @@
 #include "stdlib/impl/motion/world_zones.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/axes.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/additional.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

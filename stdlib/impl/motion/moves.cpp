@@ -8,8 +8,8 @@
 #include "stdlib/impl/motion/move_order.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/move.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <utility>

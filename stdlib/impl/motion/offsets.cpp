@@ -3,7 +3,7 @@
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/support/finite.h"
 
-#include "stdlib_natives.h"
+#include "natives/positions.h"
 
 using namespace rt;
 

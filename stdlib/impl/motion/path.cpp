@@ -4,8 +4,9 @@
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/errors.h"
+#include "natives/path.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

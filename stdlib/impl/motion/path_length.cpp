@@ -4,7 +4,7 @@
 #include "stdlib/impl/motion/motion_ticker.h"
 #include "stdlib/impl/motion/state.h"
 
-#include "stdlib_natives.h"
+#include "natives/additional.h"
 
 using namespace rt;
 

@@ -8,8 +8,8 @@
 #include "stdlib/impl/motion/path_recorder.h"
 #include "stdlib/impl/motion/state.h"
 
+#include "natives/path.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <string>
 

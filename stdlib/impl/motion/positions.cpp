@@ -5,8 +5,10 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/motion_misc.h"
+#include "natives/motion_settings.h"
+#include "natives/positions.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

@@ -5,8 +5,8 @@
 #include "stdlib/impl/support/called_name.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/move.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

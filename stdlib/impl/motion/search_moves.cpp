@@ -8,8 +8,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
 
+#include "natives/search.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <memory>
 #include <utility>

@@ -5,8 +5,11 @@
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/additional.h"
+#include "natives/axes.h"
+#include "natives/motion_misc.h"
+#include "natives/motion_settings.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/motion_settings.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <array>
 

@@ -6,8 +6,8 @@
 #include "stdlib/impl/motion/triggers.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/triggers.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <array>
 #include <utility>

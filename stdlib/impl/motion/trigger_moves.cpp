@@ -7,8 +7,8 @@
 #include "stdlib/impl/strings/digits.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/trigger_moves.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/relation.h"
 
+#include "natives/triggers.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <cstring>

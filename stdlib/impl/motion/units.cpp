@@ -8,8 +8,9 @@
 #include "stdlib/impl/motion/state.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/axes.h"
+#include "natives/multitasking.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 

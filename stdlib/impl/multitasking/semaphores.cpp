@@ -8,7 +8,7 @@
 #include <deque>
 #include <map>
 
-#include "stdlib_natives.h"
+#include "natives/multitasking.h"
 
 using namespace rt;
 

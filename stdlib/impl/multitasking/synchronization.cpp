@@ -12,8 +12,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "natives/multitasking.h"
+#include "natives/path.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

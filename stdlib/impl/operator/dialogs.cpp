@@ -3,8 +3,8 @@
 #include "runtime/value/value_text.h"
 #include "stdlib/impl/operator/question.h"
 
+#include "natives/operator.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 

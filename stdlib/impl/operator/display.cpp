@@ -5,8 +5,9 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/written_value.h"
 
+#include "natives/operator.h"
+#include "natives/operator_dialogs.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

@@ -4,8 +4,8 @@
 #include "stdlib/impl/operator/question.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/operator_dialogs.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <charconv>

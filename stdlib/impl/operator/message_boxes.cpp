@@ -3,8 +3,9 @@
 #include "stdlib/impl/operator/question.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/operator.h"
+#include "natives/operator_dialogs.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <memory>
 

@@ -5,8 +5,8 @@
 #include "stdlib/impl/support/deadline.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/message_queues.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #include "stdlib/impl/rawbytes/checks.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/rawbytes.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <charconv>
 #include <string>

@@ -4,8 +4,8 @@
 #include "stdlib/impl/support/data_names.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/sensors.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include "runtime/base/text_util.h"
 #include "runtime/sim/surroundings.h"
 
+#include "natives/sensors.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

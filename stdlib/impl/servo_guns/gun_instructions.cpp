@@ -5,8 +5,9 @@
 #include "stdlib/impl/servo_guns/servo_gun.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/servo_tools.h"
+#include "natives/spot.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "stdlib/impl/spot/spot_gun.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/spot.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <utility>

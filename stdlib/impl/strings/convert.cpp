@@ -5,8 +5,9 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/utf8.h"
 
+#include "natives/strings.h"
+#include "natives/various.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <charconv>
 #include <cmath>

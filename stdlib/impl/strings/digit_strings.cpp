@@ -4,8 +4,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/relation.h"
 
+#include "natives/strings.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <charconv>
 

@@ -4,8 +4,8 @@
 #include "stdlib/impl/support/inlined.h"
 #include "stdlib/impl/support/utf8.h"
 
+#include "natives/strings.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

@@ -7,8 +7,8 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cstring>
 

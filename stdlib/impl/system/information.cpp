@@ -6,8 +6,9 @@
 #include "stdlib/impl/motion/units.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/support.h"
+#include "natives/time.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <iterator>

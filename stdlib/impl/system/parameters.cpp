@@ -7,8 +7,8 @@
 #include "stdlib/impl/system/configuration.h"
 #include "stdlib/impl/system/whole_file.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // The safety controller: the simulated one has no configuration and no version, so its texts are empty; and brakes are never
 // checked.
 
-#include "stdlib_natives.h"
+#include "natives/additional.h"
 
 using namespace rt;
 

@@ -6,8 +6,8 @@
 #include "stdlib/impl/support/utf8.h"
 #include "stdlib/impl/system/whole_file.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

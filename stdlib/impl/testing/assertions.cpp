@@ -8,8 +8,8 @@
 #include "stdlib/impl/testing/differences.h"
 #include "stdlib/impl/testing/test_record.h"
 
+#include "natives/testing.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "runtime/host/controller.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/time.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <chrono>
 #include <cstdio>

@@ -8,8 +8,8 @@
 #include "runtime/host/json_numbers.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/time.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <algorithm>
 #include <string>

@@ -3,8 +3,8 @@
 #include "runtime/host/controller.h"
 #include "runtime/sched/error_search.h"
 
+#include "natives/support.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 using namespace rt;
 

@@ -7,8 +7,11 @@
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/task_asked.h"
 
+#include "natives/math.h"
+#include "natives/multitasking.h"
+#include "natives/support.h"
+#include "natives/various.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <cmath>
 #include <cstring>

@@ -4,8 +4,8 @@
 #include "runtime/host/module_saver.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/various.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <filesystem>
 

@@ -6,8 +6,8 @@
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/support/fail.h"
 
+#include "natives/vision.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,10 @@
 // Coordinate systems from positions, matrices and fitting: manual 1.7, 1.15.
 
+#include "natives/math.h"
+#include "natives/matrix.h"
+#include "natives/motion_settings.h"
+#include "natives/positions.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <catch2/catch.hpp>
 

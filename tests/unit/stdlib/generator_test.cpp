@@ -55,7 +55,7 @@ std::string prototypeOf(const std::string& declaration) {
     for (const std::string& error : model.errors)
         UNSCOPED_INFO(error);
     CHECK(model.errors.empty());
-    const std::string all = emitNatives(model);
+    const std::string all = emitNatives(model, model.sources.at(0));
     const size_t name = all.find(" rt_");
     REQUIRE(name != std::string::npos);
     const size_t start = all.rfind('\n', name) + 1;
@@ -106,7 +106,7 @@ TEST_CASE("all other natives get the task and return a status", "[stdlib][gen]")
 
 TEST_CASE("what the compiler makes itself has no prototype", "[stdlib][gen]") {
     const Model model = read("!! There?\n!@ role: present\nFUNC bool Present(REF anytype OptPar)\n");
-    CHECK(emitNatives(model).find("rt_Present") == std::string::npos);
+    CHECK(emitNatives(model, model.sources.at(0)).find("rt_Present") == std::string::npos);
     CHECK(emitNativeTable(model).find("NativeForm::Compiler") != std::string::npos);
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("a routine with a body is not native", "[stdlib][gen]") {
     const Model model = read("!! Adds.\nFUNC num Sum(num A, num B)\n  RETURN A + B;\nENDFUNC\n");
     REQUIRE(model.routines.size() == 1);
     CHECK_FALSE(model.routines[0].native);
-    CHECK(emitNatives(model).find("rt_Sum") == std::string::npos);
+    CHECK(emitNatives(model, model.sources.at(0)).find("rt_Sum") == std::string::npos);
 }
 
 TEST_CASE("an attribute with a word that is not in builtin_words.def is refused", "[stdlib][gen]") {

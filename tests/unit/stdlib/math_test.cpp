@@ -1,9 +1,10 @@
 // Mathematics, bits and geometry: manual 1.15.
 
+#include "natives/bits.h"
+#include "natives/math.h"
 #include "stdlib/impl/math/angles.h"
 #include "stdlib/impl/math/rounding.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <catch2/catch.hpp>
 

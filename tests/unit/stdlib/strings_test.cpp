@@ -1,9 +1,10 @@
 // String functions: manual 1.19.
 
+#include "natives/strings.h"
+#include "natives/various.h"
 #include "runtime/abi/support_natives.h"
 #include "stdlib/impl/support/utf8.h"
 #include "stdlib_constants.h"
-#include "stdlib_natives.h"
 
 #include <catch2/catch.hpp>
 
