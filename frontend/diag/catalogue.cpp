@@ -9,7 +9,18 @@ namespace {
 
 constexpr auto kCatalogue = std::to_array<CatalogueEntry>({
 #define DIAG(number, name, severity, argCount, text) {number, Severity::severity, argCount, #name, text},
-#include "frontend/diag/diagnostics.def"
+// clang-format off: ascending
+#include "frontend/diag/messages/syntax.def"
+#include "frontend/diag/messages/names.def"
+#include "frontend/diag/messages/expressions.def"
+#include "frontend/diag/messages/calls.def"
+#include "frontend/diag/messages/flow.def"
+#include "frontend/diag/messages/projects.def"
+#include "frontend/diag/messages/lowering.def"
+#include "frontend/diag/messages/warnings.def"
+#include "frontend/diag/messages/internal.def"
+// clang-format on
+#undef DIAG
 });
 
 /// Number in a placeholder at `text[at]`, which is a '{'; -1 when that is plain text.
@@ -43,9 +54,9 @@ constexpr bool textsFollowTheWording() {
     return true;
 }
 
-static_assert(numbersAscend(), "diagnostics.def: numbers must ascend within 1000..9999");
-static_assert(placeholdersMatch(), "diagnostics.def: placeholders must match the number of arguments");
-static_assert(textsFollowTheWording(), "diagnostics.def: a text is empty or ends with a full stop");
+static_assert(numbersAscend(), "diag/messages: numbers must ascend within 1000..9999");
+static_assert(placeholdersMatch(), "diag/messages: placeholders must match the number of arguments");
+static_assert(textsFollowTheWording(), "diag/messages: a text is empty or ends with a full stop");
 
 } // namespace
 

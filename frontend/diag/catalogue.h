@@ -1,11 +1,11 @@
 #pragma once
-// The catalogue of diagnostics.def: severity, number of arguments and text of every code.
+// The catalogue of all messages: severity, number of arguments and text of every code.
 
 #include "frontend/diag/diagnostic.h"
 
 namespace rapid::diag {
 
-/// One line of diagnostics.def.
+/// One line of frontend/diag/messages.
 struct CatalogueEntry {
     uint16_t number = 0;
     Severity severity = Severity::Error;

@@ -1,5 +1,5 @@
 #pragma once
-// Diagnostics: one typed catalogue (diagnostics.def), a sink that collects, renderers for people and programs.
+// Diagnostics: typed messages, a sink that collects, renderers for people and programs.
 
 #include "frontend/source/source_file.h"
 
@@ -19,21 +19,13 @@ enum class Severity : uint8_t { Error, Warning, Note };
 /// Every diagnostic of rapidc: RAP and four digits. 1xxx lexing and parsing, 2xxx names and types, 3xxx expressions
 /// and constants, 4xxx calls and built-ins, 5xxx flow and use of data, 6xxx projects, tasks, configuration,
 /// 7xxx lowering and linking, 8xxx lint, 9xxx internal.
-enum class Code : uint16_t {
-#define DIAG(number, name, severity, argCount, text) name = number,
-#include "frontend/diag/diagnostics.def"
-};
+enum class Code : uint16_t {};
 
-/// A diagnostic and the number of its arguments: a report with a different number does not compile.
+/// A diagnostic and the number of its arguments: a report with a different number does not compile. The messages are in
+/// frontend/diag/messages, a header for each thousand: say::MissingArgument.
 template <size_t N> struct Message {
     Code code;
 };
-
-/// The catalogue as messages: say::MissingArgument.
-namespace say {
-#define DIAG(number, name, severity, argCount, text) inline constexpr Message<argCount> name{Code::name};
-#include "frontend/diag/diagnostics.def"
-} // namespace say
 
 /// The arguments of a message with N of them, N > 0: `{a, b}`.
 template <size_t N> using MessageArgs = const std::string (&)[N];

@@ -1,4 +1,5 @@
 #include "frontend/diag/catalogue.h"
+#include "frontend/diag/messages/syntax.h"
 
 #include <fmt/format.h>
 
@@ -58,7 +59,8 @@ Diagnostic& Sink::report(Code code, const std::shared_ptr<const SourceFile>& fil
     const CatalogueEntry* entry = findEntry(static_cast<uint16_t>(code));
     const Severity severity = entry ? entry->severity : Severity::Error;
     if (severity == Severity::Error) ++errorCount_;
-    if (code != Code::TooManyErrors && isOneTooMany(file, range, severity)) return dropped_ = Diagnostic();
+    if (code != say::TooManyErrors.code && isOneTooMany(file, range, severity))
+        return dropped_ = Diagnostic();
     Diagnostic& diagnostic = all_.emplace_back();
     diagnostic.code = code;
     diagnostic.severity = severity;
@@ -79,7 +81,7 @@ bool Sink::isOneTooMany(const std::shared_ptr<const SourceFile>& file, SourceRan
     }
     if (count == kMaxPerFile) {
         ++count;
-        report(Code::TooManyErrors, file, range, {error ? "errors" : "warnings"});
+        report(say::TooManyErrors.code, file, range, {error ? "errors" : "warnings"});
     }
     return true;
 }
@@ -115,7 +117,7 @@ void Sink::add(std::span<const Diagnostic> diagnostics) {
 void Sink::absorb(Sink& other) {
     for (Diagnostic& d : other.all_) {
         if (d.severity == Severity::Error) ++errorCount_;
-        if (d.code == Code::TooManyErrors || !isOneTooMany(d.file, d.range, d.severity))
+        if (d.code == say::TooManyErrors.code || !isOneTooMany(d.file, d.range, d.severity))
             all_.push_back(std::move(d));
     }
     other.take();
@@ -126,7 +128,7 @@ std::vector<Diagnostic> Sink::sorted() const {
     const auto key = [this](size_t i) {
         const Diagnostic& d = all_[i];
         return std::make_tuple(d.file ? std::string_view(d.file->path()) : std::string_view(),
-                               d.code == Code::TooManyErrors, d.range.begin, d.range.end,
+                               d.code == say::TooManyErrors.code, d.range.begin, d.range.end,
                                static_cast<uint16_t>(d.code), i);
     };
     std::vector<size_t> order(all_.size());

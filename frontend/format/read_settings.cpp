@@ -1,5 +1,6 @@
 #include "frontend/format/read_settings.h"
 
+#include "frontend/diag/messages/projects.h"
 #include "frontend/source/spelling.h"
 
 #include "frontend/sema/names.h"

@@ -1,6 +1,7 @@
 // The rule of BACKWARD handlers: their movements mirror kind and order of those in the body (manual 1.21).
 
 #include "frontend/lint/backward.h"
+#include "frontend/diag/messages/warnings.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -143,7 +144,7 @@ class BackwardJudge {
 } // namespace
 
 void judgeBackward(const RoutineSymbol& routine, Reporter& reporter) {
-    if (routine.routineDecl->backward.empty() || !reporter.isOn(Code::BackwardNotMirrored)) return;
+    if (routine.routineDecl->backward.empty() || !reporter.isOn(say::BackwardNotMirrored.code)) return;
     BackwardJudge(routine, reporter).run(*routine.routineDecl);
 }
 

@@ -1,6 +1,7 @@
 // Calls: arguments, interrupts, movements and the waits after them.
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/lint/walker.h"
 
 #include <fmt/format.h>

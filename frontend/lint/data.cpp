@@ -1,5 +1,6 @@
 // Reading and writing of variables.
 
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/lint/walker.h"
 
 namespace rapid::lint {

@@ -3,6 +3,7 @@
 #include "frontend/lint/error_routes.h"
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
@@ -191,7 +192,7 @@ bool ErrorRoutes::find(const Routine& routine, const Routine& caller, Lost& lost
 }
 
 void ErrorRoutes::judge(Reporter& reporter) const {
-    if (!reporter.isOn(Code::ErrorNotPassedOn)) return;
+    if (!reporter.isOn(say::ErrorNotPassedOn.code)) return;
     std::unordered_set<const Routine*> reported;
     for (const Routine& caller : routines_) {
         if (!caller.takesAll && caller.handled.empty()) continue;

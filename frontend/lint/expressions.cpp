@@ -1,6 +1,7 @@
 // Expressions: what is read, comparisons that cannot be meant, texts that become too long.
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/lint/walker.h"
 #include "frontend/sema/type_rules.h"
 #include "frontend/syntax/lexer.h"

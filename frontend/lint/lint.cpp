@@ -3,6 +3,8 @@
 #include "frontend/lint/lint.h"
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/lint/backward.h"
 #include "frontend/lint/error_routes.h"
 #include "frontend/lint/presence.h"
@@ -86,7 +88,7 @@ class Errors {
     void update() {
         for (; seen_ < sink_.all().size(); ++seen_) {
             const diag::Diagnostic& d = sink_.all()[seen_];
-            if ((d.severity == diag::Severity::Error || d.code == diag::Code::Placeholder) && d.file)
+            if ((d.severity == diag::Severity::Error || d.code == diag::say::Placeholder.code) && d.file)
                 places_[d.file.get()].insert(d.range.begin);
         }
     }
@@ -392,7 +394,7 @@ bool TaskLint::isOnlyForCallers(const RoutineSymbol& routine) {
 }
 
 void TaskLint::rings() {
-    if (facts_.callsByName || !reporter_.isOn(Code::UnusedRoutine)) return;
+    if (facts_.callsByName || !reporter_.isOn(say::UnusedRoutine.code)) return;
     RoutineList roots,
         candidates; // a routine that is never called is reported by itself, its callees are not
     for (const Module* module : task_.modules)

@@ -1,5 +1,6 @@
 // Loops and jumps: what never ends, never waits, never runs.
 
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/lint/walker.h"
 
 #include <algorithm>
@@ -59,9 +60,9 @@ bool Walker::whileStmt(const WhileStmt& s) {
     const bool left = leaveLoop(mark);
     if (left || !isTight(mark)) return !forever || left;
     if (forever)
-        suspectLoop(Code::EndlessLoop, s, mark);
+        suspectLoop(say::EndlessLoop.code, s, mark);
     else if (!constant(*s.condition) && facts_.calls.size() == mark.calls && !changesIn(*s.condition, mark))
-        suspectLoop(Code::BusyWait, s, mark);
+        suspectLoop(say::BusyWait.code, s, mark);
     return !forever;
 }
 
@@ -172,7 +173,7 @@ const Walker::Label* Walker::tightLoopOf(const GotoStmt& s) const {
 void Walker::gotoStmt(const GotoStmt& s) {
     if (const sema::Symbol* target = targetOf(s)) targets_.insert(target->decl);
     // A jump back from the end of the same list of instructions: nothing else leads on from here.
-    if (const Label* label = tightLoopOf(s)) suspectLoop(Code::EndlessLoop, s, label->mark);
+    if (const Label* label = tightLoopOf(s)) suspectLoop(say::EndlessLoop.code, s, label->mark);
     ++jumps_;
 }
 
@@ -181,7 +182,7 @@ void Walker::judgeJumpBack(const CompactIfStmt& s) {
     if (!s.condition || !s.body || s.body->kind != NodeKind::Goto || constant(*s.condition)) return;
     const Label* label = tightLoopOf(as<GotoStmt>(*s.body));
     if (label && facts_.calls.size() == label->mark.calls && !changesIn(*s.condition, label->mark))
-        suspectLoop(Code::BusyWait, s, label->mark);
+        suspectLoop(say::BusyWait.code, s, label->mark);
 }
 
 } // namespace rapid::lint

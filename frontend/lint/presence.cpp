@@ -3,6 +3,7 @@
 
 #include "frontend/lint/presence.h"
 
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/syntax/tree_walk.h"
 
 #include <algorithm>
@@ -425,7 +426,7 @@ class PresenceWalk {
 } // namespace
 
 void judgePresence(const RoutineSymbol& routine, Reporter& reporter) {
-    if (!reporter.isOn(Code::OptionalMayBeMissing)) return;
+    if (!reporter.isOn(say::OptionalMayBeMissing.code)) return;
     const bool any = std::any_of(routine.params.begin(), routine.params.end(),
                                  [](const DataSymbol* p) { return p->optional && !p->isSwitch; });
     if (any) PresenceWalk(routine, reporter).run();

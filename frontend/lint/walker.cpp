@@ -2,6 +2,7 @@
 
 #include "frontend/lint/walker.h"
 
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/sema/names.h"
 #include "frontend/sema/type_rules.h"
 
@@ -115,9 +116,10 @@ void Walker::errorClause(const ErrorClause& clause) {
                       containsToken(*tree_, clause, TokenKind::KwTrynext);
     const bool continues = list(clause.body);
     inHandler_ = handlerResumes_ = false;
-    if (!continues || jumps_ + ends_ != left || facts_.callsByName || !reporter_.isOn(Code::UnhandledError))
+    if (!continues || jumps_ + ends_ != left || facts_.callsByName ||
+        !reporter_.isOn(say::UnhandledError.code))
         return;
-    facts_.suspicions.push_back({Code::UnhandledError, tree_, tree_->range(clause.first), routine_->name,
+    facts_.suspicions.push_back({say::UnhandledError.code, tree_, tree_->range(clause.first), routine_->name,
                                  calls, facts_.calls.size(), kEnds});
 }
 

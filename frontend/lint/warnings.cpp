@@ -1,4 +1,6 @@
 #include "frontend/lint/warnings.h"
+#include "frontend/diag/messages/projects.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/source/spelling.h"
 
 #include "frontend/diag/catalogue.h"

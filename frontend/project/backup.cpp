@@ -3,6 +3,7 @@
 #include "config/cfg_parser.h"
 #include "config/read_file.h"
 #include "config/text_util.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/project/backinfo.h"
 #include "frontend/project/system_parameters.h"
 #include "frontend/syntax/ast.h"

@@ -1,6 +1,7 @@
 #include "frontend/project/configured_folder.h"
 
 #include "config/text_util.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/project/system_parameters.h"
 
 #include <fmt/format.h>

@@ -2,6 +2,8 @@
 
 #include "config/read_file.h"
 #include "config/text_util.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/project/files.h"
 #include "frontend/sema/names.h"
 #include "frontend/syntax/ast.h"
@@ -26,8 +28,8 @@ constexpr size_t kMostNeighbours = 64;
 constexpr uintmax_t kMostBytes = uintmax_t{4} << 20;
 
 bool isUnknown(const Diagnostic& d) {
-    constexpr Code kCodes[] = {Code::UnknownName,     Code::UnknownType, Code::UnknownProcedure,
-                               Code::UnknownFunction, Code::UnknownTrap, Code::SignalUnknown};
+    constexpr Code kCodes[] = {say::UnknownName.code,     say::UnknownType.code, say::UnknownProcedure.code,
+                               say::UnknownFunction.code, say::UnknownTrap.code, say::SignalUnknown.code};
     return d.file && std::find(std::begin(kCodes), std::end(kCodes), d.code) != std::end(kCodes);
 }
 

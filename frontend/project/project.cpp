@@ -1,6 +1,7 @@
 #include "frontend/project/project.h"
 
 #include "config/text_util.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/project/backup.h"
 #include "frontend/project/configured_folder.h"
 #include "frontend/project/files.h"

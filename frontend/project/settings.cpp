@@ -1,6 +1,7 @@
 #include "frontend/project/settings.h"
 
 #include "config/json_text.h"
+#include "frontend/diag/messages/projects.h"
 
 #include <algorithm>
 #include <array>

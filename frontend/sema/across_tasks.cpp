@@ -2,6 +2,7 @@
 
 #include "frontend/sema/across_tasks.h"
 
+#include "frontend/diag/messages/projects.h"
 #include "frontend/sema/type_rules.h"
 #include "frontend/sema/wording.h"
 

@@ -1,6 +1,7 @@
 // check(): the library first, then each task: parse, collect names, resolve declarations, check bodies.
 
 #include "frontend/sema/analyzer.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/sema/across_tasks.h"
 #include "frontend/sema/collect.h"
 #include "frontend/sema/parameters.h"

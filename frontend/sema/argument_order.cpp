@@ -1,6 +1,8 @@
 // Arguments that would fit in a different order, or with one more or one less: one report.
 
 #include "frontend/sema/argument_order.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/arguments.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/parameters.h"

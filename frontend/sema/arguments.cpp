@@ -1,6 +1,9 @@
 // One argument against its parameter: type, access mode, optional and conditional forms (manual 1.1.5, 1.3.4).
 
 #include "frontend/sema/arguments.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/argument_order.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/expr.h"

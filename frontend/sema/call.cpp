@@ -1,6 +1,10 @@
 // Calls: which argument goes to which parameter (manual 1.1.5, 1.3.4).
 
 #include "frontend/sema/call.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/expressions.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/argument_order.h"
 #include "frontend/sema/arguments.h"
 #include "frontend/sema/availability.h"
@@ -148,7 +152,9 @@ void CallBinder::bindCall(const Node& node, RoutineSymbol& routine, TokenIndex n
 
 /// An argument too many follows from the other mistake in the call, if there is one: a sign that should be another one.
 void CallBinder::dropSurplus(diag::Sink& reports) {
-    const auto isSurplus = [](const diag::Diagnostic& d) { return d.code == diag::Code::TooManyArguments; };
+    const auto isSurplus = [](const diag::Diagnostic& d) {
+        return d.code == diag::say::TooManyArguments.code;
+    };
     const bool others = std::any_of(reports.all().begin(), reports.all().end(), [&](const auto& d) {
         return d.severity == diag::Severity::Error && !isSurplus(d);
     });

@@ -1,6 +1,7 @@
 // Declares the names of modules: modules themselves, types, data, routines (manual 1.1.3, 1.1.5, 1.2.2).
 
 #include "frontend/sema/collect.h"
+#include "frontend/diag/messages/names.h"
 
 namespace rapid::sema {
 

@@ -3,6 +3,7 @@
 
 #include "frontend/sema/cyclic_condition.h"
 
+#include "frontend/diag/messages/calls.h"
 #include "frontend/sema/wording.h"
 
 namespace rapid::sema {

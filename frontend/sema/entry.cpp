@@ -2,6 +2,7 @@
 
 #include "frontend/sema/entry.h"
 
+#include "frontend/diag/messages/projects.h"
 #include "frontend/sema/parameters.h"
 #include "frontend/sema/unknown.h"
 #include "frontend/sema/wording.h"

@@ -2,6 +2,7 @@
 // (manual 1.3.1 to 1.3.3).
 
 #include "frontend/sema/expr.h"
+#include "frontend/diag/messages/expressions.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/fold.h"
 #include "frontend/sema/place.h"

@@ -1,5 +1,6 @@
 // Operators: which operands they take and what they give (manual 1.3.1).
 
+#include "frontend/diag/messages/expressions.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/fold.h"
 #include "frontend/sema/place.h"

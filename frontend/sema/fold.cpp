@@ -1,6 +1,7 @@
 // Values of constant expressions. num results are rounded to binary32 after each operation, as the controller does.
 
 #include "frontend/sema/fold.h"
+#include "frontend/diag/messages/expressions.h"
 #include "frontend/syntax/limits.h"
 
 #include <algorithm>

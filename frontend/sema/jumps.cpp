@@ -2,6 +2,9 @@
 
 #include "frontend/sema/jumps.h"
 
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/token_set.h"

@@ -3,6 +3,7 @@
 #include "frontend/sema/options.h"
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/calls.h"
 #include "frontend/sema/availability.h"
 
 #include <algorithm>

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/syntax/token_set.h"
 
 namespace rapid::sema {
@@ -30,12 +33,12 @@ diag::CauseId Reports::unfinishedLine(Code code, SourceRange where) const {
 
 /// An error in the words of a line that also lacks its semicolon, at `end`: a line that is being typed.
 bool Reports::isOfUnfinished(Code code, SourceRange where, uint32_t end) const {
-    constexpr Code kLastWord[] = {Code::UnknownName, Code::UnknownLabel, Code::UnknownParameter,
-                                  Code::NotAProcedure};
+    constexpr Code kLastWord[] = {say::UnknownName.code, say::UnknownLabel.code, say::UnknownParameter.code,
+                                  say::NotAProcedure.code};
     constexpr uint32_t kLongLine = 300;
     if (where.end == end)
         return std::find(std::begin(kLastWord), std::end(kLastWord), code) != std::end(kLastWord);
-    if (code != Code::UnknownProcedure || end - where.end > kLongLine) return false;
+    if (code != say::UnknownProcedure.code || end - where.end > kLongLine) return false;
     const std::string_view between = context_.tree->source->text().substr(where.end, end - where.end);
     return between.find_first_of("\r\n") == std::string_view::npos;
 }

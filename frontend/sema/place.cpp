@@ -1,6 +1,8 @@
 // References to data: entire data, array elements, record components (manual 1.3.2).
 
 #include "frontend/sema/place.h"
+#include "frontend/diag/messages/expressions.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/fold.h"
 #include "frontend/sema/parameters.h"

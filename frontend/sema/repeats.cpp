@@ -1,6 +1,8 @@
 // One mistake, one message: several errors of one cause are reported once, with a note for each place.
 
 #include "frontend/sema/repeats.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/one_mistake.h"
 #include "frontend/sema/scopes.h"
 #include "frontend/syntax/token_set.h"
@@ -142,10 +144,10 @@ Repeats::Repeats(State& state, const Parts& parts) : CheckerPart(state), scopes_
 bool Repeats::explainUnknown(const Module& module, SourceRange where, bool routines, size_t lost) {
     if (lost == 0) return true;
     const auto concerned = [&](const UnknownName& unknown) {
-        const bool data = unknown.code == Code::UnknownName;
+        const bool data = unknown.code == say::UnknownName.code;
         return unknown.module == &module && !unknown.explained && !unknown.looksMisspelt &&
-               unknown.code != Code::UnknownType && data != routines && unknown.where.begin >= where.begin &&
-               unknown.where.end <= where.end;
+               unknown.code != say::UnknownType.code && data != routines &&
+               unknown.where.begin >= where.begin && unknown.where.end <= where.end;
     };
     std::unordered_set<NameId> names;
     for (const UnknownName& unknown : task_.unknownNames)
@@ -213,7 +215,7 @@ void Repeats::gatherUnknown(std::span<Module* const> modules) {
     }
     std::map<std::pair<const Module*, NameId>, size_t> count;
     for (const UnknownName& unknown : task_.unknownNames)
-        if (unknown.code == Code::UnknownName) ++count[{unknown.module, unknown.name}];
+        if (unknown.code == say::UnknownName.code) ++count[{unknown.module, unknown.name}];
     for (const Module* module : modules)
         for (const RoutineSymbol* routine : module->routines) {
             const auto drop = [&](const DataSymbol* own) {
@@ -226,7 +228,7 @@ void Repeats::gatherUnknown(std::span<Module* const> modules) {
                 drop(data);
         }
     std::erase_if(task_.unknownNames, [&](const UnknownName& unknown) {
-        return !unknown.explained && unknown.code == Code::UnknownName &&
+        return !unknown.explained && unknown.code == say::UnknownName.code &&
                count[{unknown.module, unknown.name}] < 2;
     });
 }
@@ -292,7 +294,7 @@ void Repeats::mergeCauses() {
 void mergeLineCauses(diag::Sink& sink) {
     std::map<diag::CauseId, SourceRange> ends; // of lines without their semicolon
     for (const Diagnostic& d : sink.all())
-        if (d.code == Code::MissingSemicolon) ends.emplace(d.cause, d.range);
+        if (d.code == say::MissingSemicolon.code) ends.emplace(d.cause, d.range);
     if (ends.empty()) return;
     std::set<diag::CauseId> merged;
     sink.revise([&](Diagnostic& d) {
@@ -302,8 +304,9 @@ void mergeLineCauses(diag::Sink& sink) {
         return true;
     });
     if (merged.empty()) return;
-    sink.revise(
-        [&](const Diagnostic& d) { return d.code != Code::MissingSemicolon || !merged.contains(d.cause); });
+    sink.revise([&](const Diagnostic& d) {
+        return d.code != say::MissingSemicolon.code || !merged.contains(d.cause);
+    });
 }
 
 } // namespace rapid::sema

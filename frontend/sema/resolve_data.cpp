@@ -2,6 +2,8 @@
 // constants of other modules in any order (manual 1.2.2).
 
 #include "frontend/sema/resolve_data.h"
+#include "frontend/diag/messages/expressions.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/attributes.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/fold.h"

@@ -1,6 +1,7 @@
 // Types of names: records, aliases (manual 1.2.1) and the parameter lists of routines (manual 1.1.5).
 
 #include "frontend/sema/resolve_types.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/attributes.h"
 #include "frontend/sema/literal_value.h"
 #include "frontend/sema/scopes.h"

@@ -1,6 +1,8 @@
 // Bodies of routines: scope of parameters and data, handlers, labels and jumps (manual 1.1.5, 1.12, 1.13, 1.21).
 
 #include "frontend/sema/routine.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/collect.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/jumps.h"

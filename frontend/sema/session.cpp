@@ -1,5 +1,6 @@
 #include "frontend/sema/session.h"
 
+#include "frontend/diag/messages/projects.h"
 #include "frontend/sema/analyzer.h"
 #include "frontend/syntax/parser.h"
 
@@ -113,7 +114,8 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
         const bool open = program->facts[analyzer->task().files[i].slot]->open;
         if (i == index || !alone || open || pointsInto(task.files[i].checked, before)) dirty.push_back(i);
     }
-    std::erase_if(task.whole, [](const diag::Diagnostic& d) { return d.code != diag::Code::SameFileTwice; });
+    std::erase_if(task.whole,
+                  [](const diag::Diagnostic& d) { return d.code != diag::say::SameFileTwice.code; });
     for (const size_t i : dirty)
         task.files[i].checked.clear();
     if (alone)

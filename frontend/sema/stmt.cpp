@@ -1,6 +1,11 @@
 // Instructions: assignment, branches, loops, calls (manual 1.4, 1.5).
 
 #include "frontend/sema/stmt.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/expressions.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/availability.h"
 #include "frontend/sema/call.h"
 #include "frontend/sema/cyclic_condition.h"
@@ -489,7 +494,7 @@ bool Statements::isCutBySemicolon(const Symbol& symbol, TokenIndex name) {
     if (!data) return false;
     const auto& all = (reports_.collected() ? *reports_.collected() : state_.sink).all();
     const SourceRange own = range(name);
-    if (!all.empty() && all.back().code == Code::MissingArgument &&
+    if (!all.empty() && all.back().code == say::MissingArgument.code &&
         all.back().file == context_.tree->source && all.back().range.begin < own.begin &&
         context_.tree->tokens[name - 1].kind == TokenKind::Semicolon) {
         const std::string_view between =

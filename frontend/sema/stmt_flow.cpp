@@ -2,6 +2,10 @@
 // (manual 1.1.5, 1.11 to 1.13).
 
 #include "frontend/sema/stmt_flow.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/expressions.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/expr.h"
 #include "frontend/sema/place.h"
 #include "frontend/sema/remedies.h"

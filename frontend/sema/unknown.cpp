@@ -1,6 +1,9 @@
 // Names that nothing declares: what may be said about them, and what was probably meant.
 
 #include "frontend/sema/unknown.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/sema/add_ins.h"
 #include "frontend/sema/analyzer.h"
 #include "frontend/sema/place.h"

@@ -1,4 +1,5 @@
 #include "frontend/syntax/lexer.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/lexer_impl.h"
 #include "frontend/syntax/limits.h"
 #include "frontend/syntax/plain_pieces.h"
@@ -165,7 +166,8 @@ void Lexer::readNumber() {
             ++p_, skipContinuation();
     }
     if (!valid)
-        addError(diag::Code::BadNumber, start, p_, {}, {}); // the parser reports it where it reads the number
+        addError(diag::say::BadNumber.code, start, p_, {},
+                 {}); // the parser reports it where it reads the number
     push(TokenKind::NumLiteral, start);
 }
 

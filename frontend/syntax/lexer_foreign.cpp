@@ -1,6 +1,7 @@
 // What the lexer meets that is not RAPID: operators and comments of other languages, characters of word processors,
 // unreadable bytes. Each is read as it was meant where that is clear (lexer_impl.h).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/foreign_characters.h"
 #include "frontend/syntax/lexer_impl.h"
 

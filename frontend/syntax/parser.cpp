@@ -1,5 +1,7 @@
 // The entry point of the parser.
 
+#include "frontend/diag/messages/projects.h"
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <fmt/format.h>
@@ -61,12 +63,13 @@ std::unique_ptr<SyntaxTree> makeTree(std::shared_ptr<const SourceFile> source, d
 /// What is reported here leaves open how the line was meant: there is no certain edit, and the text is not just too long or
 /// in the wrong place.
 bool leavesOpen(const diag::Diagnostic& d) {
-    constexpr Code kClear[] = {Code::StringTooLong, Code::NameTooLong, Code::NumberTooLarge,
-                               Code::DeclarationAfterInstruction};
+    constexpr Code kClear[] = {say::StringTooLong.code, say::NameTooLong.code, say::NumberTooLarge.code,
+                               say::DeclarationAfterInstruction.code};
     const bool certain =
         std::any_of(d.fixes.begin(), d.fixes.end(), [](const auto& fix) { return fix.certain; });
     const std::string_view text = d.file->text();
-    if (d.code == Code::MissingBlockEnd && !equalsNoCase(text.substr(d.range.begin, 3), "END")) return false;
+    if (d.code == say::MissingBlockEnd.code && !equalsNoCase(text.substr(d.range.begin, 3), "END"))
+        return false;
     return d.severity == diag::Severity::Error && !certain &&
            std::find(std::begin(kClear), std::end(kClear), d.code) == std::end(kClear);
 }

@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "config/text_util.h"
+#include "frontend/diag/messages/calls.h"
 #include "frontend/project/settings.h"
 #include "frontend/workspace/configuration.h"
 #include "frontend/workspace/judge.h"

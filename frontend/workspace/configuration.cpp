@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "config/text_util.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/project/system_parameters.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "frontend/workspace/judge.h"
 
+#include "frontend/diag/messages/lowering.h"
 #include "frontend/workspace/configuration.h"
 
 #include <algorithm>

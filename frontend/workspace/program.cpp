@@ -1,5 +1,7 @@
 #include "frontend/workspace/program.h"
 
+#include "frontend/diag/messages/lowering.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/project/files.h"
 #include "frontend/project/neighbours.h"
 #include "frontend/source/same_ends.h"
@@ -141,8 +143,8 @@ void Program::judge() {
 namespace {
 /// Reports that the check itself never makes.
 bool isOfJudge(const diag::Diagnostic& d) {
-    return d.code == diag::Code::BuiltinNotImplemented || d.code == diag::Code::BadDirective ||
-           d.code == diag::Code::UnknownWarning || static_cast<int>(d.code) / 1000 == 8;
+    return d.code == diag::say::BuiltinNotImplemented.code || d.code == diag::say::BadDirective.code ||
+           d.code == diag::say::UnknownWarning.code || static_cast<int>(d.code) / 1000 == 8;
 }
 } // namespace
 

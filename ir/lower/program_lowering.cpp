@@ -1,6 +1,7 @@
 #include "ir/lower/program_lowering.h"
 
 #include "config/letter_case.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/syntax/limits.h"
 #include "ir/lower/routine_lowering.h"
 
@@ -261,7 +262,7 @@ uint32_t ProgramLowering::globalFor(const DataSymbol& symbol, uint32_t task) {
         index = it->second;
         if (module_.globals[index].type != irType(symbol.type)) {
             const auto& tree = *symbol.module->tree;
-            sink_.report(diag::Code::SharedDataConflict, tree.source, tree.range(symbol.nameToken),
+            sink_.report(diag::say::SharedDataConflict.code, tree.source, tree.range(symbol.nameToken),
                          {symbol.name, symbol.module->name});
         }
     } else if (signal) {

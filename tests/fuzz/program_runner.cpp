@@ -1,6 +1,7 @@
 #include "tests/fuzz/program_runner.h"
 
 #include "codegen/codegen.h"
+#include "frontend/diag/messages/calls.h"
 #include "ir/lower/lower.h"
 #include "ir/passes/passes.h"
 #include "runtime/host/controller.h"
@@ -111,7 +112,7 @@ bool ProgramRunner::check(const TaskTexts& tasks, size_t robots) {
     errors_ = show(sink);
     const auto& all = sink.all();
     refusable_ = std::any_of(all.begin(), all.end(), [](const diag::Diagnostic& d) {
-        return d.code == diag::Code::MechanicalUnitUnknown; // the controller has none of this name
+        return d.code == diag::say::MechanicalUnitUnknown.code; // the controller has none of this name
     });
     return !sink.hasErrors();
 }

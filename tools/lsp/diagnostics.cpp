@@ -1,6 +1,8 @@
 #include "tools/lsp/diagnostics.h"
 
 #include "config/json_text.h"
+#include "frontend/diag/messages/projects.h"
+#include "frontend/diag/messages/warnings.h"
 #include "frontend/project/files.h"
 #include "tools/lsp/readable_texts.h"
 
@@ -28,11 +30,11 @@ constexpr int kUnnecessary = 1;
 
 bool isUnnecessary(Code code) {
     switch (code) {
-    case Code::UnusedVariable:
-    case Code::UnusedParameter:
-    case Code::UnusedRoutine:
-    case Code::UnusedType:
-    case Code::TrapNotConnected: return true;
+    case say::UnusedVariable.code:
+    case say::UnusedParameter.code:
+    case say::UnusedRoutine.code:
+    case say::UnusedType.code:
+    case say::TrapNotConnected.code: return true;
     default: return false;
     }
 }
@@ -199,7 +201,7 @@ void Publisher::logOthers(State& state) {
         for (const std::string& problem : program->loaded().usageErrors)
             all += problem + "\n";
         for (const diag::Diagnostic& d : program->diagnostics())
-            if (!d.file && d.severity != diag::Severity::Note && d.code != Code::NoInput)
+            if (!d.file && d.severity != diag::Severity::Note && d.code != say::NoInput.code)
                 all += fmt::format("{}: {}\n", diag::codeName(d.code), d.message);
     }
     if (all == logged_) return;

@@ -1,5 +1,6 @@
 #include "tools/program/pipeline.h"
 
+#include "frontend/diag/messages/internal.h"
 #include "frontend/lint/warnings.h"
 #include "ir/lower/lower.h"
 #include "ir/verify/verify.h"

@@ -1,5 +1,6 @@
 #include "tools/program/unit_compiler.h"
 
+#include "frontend/diag/messages/names.h"
 #include "ir/lower/lower.h"
 #include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
@@ -186,7 +187,7 @@ rt::OpenReferences SourceCompiler::unresolved(const std::string& task, const rt:
     const sema::Task* wanted = findTask(*program, task);
     rt::OpenReferences result;
     for (const diag::Diagnostic& diagnostic : sink.sorted()) {
-        if (diagnostic.code != diag::Code::MayBeDeclared || !diagnostic.file) continue;
+        if (diagnostic.code != diag::say::MayBeDeclared.code || !diagnostic.file) continue;
         const bool own =
             std::any_of(wanted->modules.begin(), wanted->modules.end(),
                         [&](const sema::Module* module) { return module->tree->source == diagnostic.file; });

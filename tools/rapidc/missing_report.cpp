@@ -1,6 +1,9 @@
 #include "tools/rapidc/missing_report.h"
 
 #include "config/json_text.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/projects.h"
 #include "frontend/sema/names.h"
 #include "frontend/sema/options.h"
 #include "stdlib/native_table.h"
@@ -49,29 +52,30 @@ struct Finding {
 
 Finding findingOf(Code code) {
     switch (code) {
-    case Code::MayBeDeclared: return {"name", "", true};
-    case Code::UnknownName: return {"name", "nothing declares this data", true};
-    case Code::UnknownType: return {"name", "nothing declares this data type", true};
-    case Code::UnknownProcedure: return {"name", "nothing declares this procedure", true};
-    case Code::UnknownFunction: return {"name", "nothing declares this function", true};
-    case Code::UnknownTrap: return {"name", "nothing declares this trap routine", true};
-    case Code::SignalUnknown: return {"signal", "no configuration is given", true};
-    case Code::SignalUndefined: return {"signal", "the configuration does not define it", true};
-    case Code::MechanicalUnitUnknown: return {"unit", "the configuration has no such mechanical unit", true};
-    case Code::EncryptedModule: return {"module", "encrypted"};
-    case Code::ModuleNotSaved:
-    case Code::ListedModuleMissing:
-    case Code::ProgramModuleMissing: return {"module", "the file is not there"};
-    case Code::SystemModuleNotSaved: return {"module", "part of RobotWare"};
-    case Code::TaskWithoutFolder: return {"task", "it has no modules"};
-    case Code::RobotUnknown: return {"robot", "the model is not known here"};
+    case say::MayBeDeclared.code: return {"name", "", true};
+    case say::UnknownName.code: return {"name", "nothing declares this data", true};
+    case say::UnknownType.code: return {"name", "nothing declares this data type", true};
+    case say::UnknownProcedure.code: return {"name", "nothing declares this procedure", true};
+    case say::UnknownFunction.code: return {"name", "nothing declares this function", true};
+    case say::UnknownTrap.code: return {"name", "nothing declares this trap routine", true};
+    case say::SignalUnknown.code: return {"signal", "no configuration is given", true};
+    case say::SignalUndefined.code: return {"signal", "the configuration does not define it", true};
+    case say::MechanicalUnitUnknown.code:
+        return {"unit", "the configuration has no such mechanical unit", true};
+    case say::EncryptedModule.code: return {"module", "encrypted"};
+    case say::ModuleNotSaved.code:
+    case say::ListedModuleMissing.code:
+    case say::ProgramModuleMissing.code: return {"module", "the file is not there"};
+    case say::SystemModuleNotSaved.code: return {"module", "part of RobotWare"};
+    case say::TaskWithoutFolder.code: return {"task", "it has no modules"};
+    case say::RobotUnknown.code: return {"robot", "the model is not known here"};
     default: return {};
     }
 }
 
 /// The name that a diagnostic is about.
 std::string nameIn(const diag::Diagnostic& d) {
-    const std::string& given = d.args[d.code == Code::ProgramModuleMissing ? 1 : 0];
+    const std::string& given = d.args[d.code == say::ProgramModuleMissing.code ? 1 : 0];
     const size_t open = given.find('\''); // "signal 'doGrip'"
     return open == std::string::npos ? given : given.substr(open + 1, given.rfind('\'') - open - 1);
 }
@@ -92,11 +96,11 @@ class MissingReport {
         const Finding finding = findingOf(d.code);
         if (finding.kind.empty()) return;
         std::string name = nameIn(d);
-        if (d.code == Code::ListedModuleMissing || finding.kind == "module")
+        if (d.code == say::ListedModuleMissing.code || finding.kind == "module")
             name = std::filesystem::path(name).filename().string();
         MissingRow& row = table_[{std::string(finding.kind), name}];
         if (row.detail.empty()) row.detail = finding.detail;
-        if (d.code == Code::MayBeDeclared) row.detail = d.args[1] + d.args[2];
+        if (d.code == say::MayBeDeclared.code) row.detail = d.args[1] + d.args[2];
         if (finding.isName) names_[sema::foldName(name)].push_back(&row);
     }
 

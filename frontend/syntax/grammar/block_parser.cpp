@@ -1,5 +1,6 @@
 // IF, FOR, WHILE and TEST (manual 1.4.2).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <fmt/format.h>
@@ -269,7 +270,7 @@ Stmt* BlockParser::parseTestCases(TokenIndex opening, Expr* subject, bool whole)
     if (!whole && !kTestEnds.has(kind())) return finish(node);
     if (!panic() && !kTestEnds.has(kind()) && !startsLine(pos()) && startsLine(pos() + 1) &&
         kTestEnds.has(peek())) { // TEST n OF
-        if (!reports().joinLastEdit(Code::MisspeltKeyword, range(pos()), ""))
+        if (!reports().joinLastEdit(say::MisspeltKeyword.code, range(pos()), ""))
             fix(report(say::UnexpectedToken, pos(), {describe(pos()), "CASE"}), range(pos()), "");
         take();
     }

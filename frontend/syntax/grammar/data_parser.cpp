@@ -1,5 +1,6 @@
 // Data (manual 1.2.2).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {
@@ -79,7 +80,7 @@ void DataParser::parseDataTail(DataDecl* node, bool nameMissing, bool ofModule) 
             node->init = expressions().parseExpression();
         } else if (kind() == K::Equal) {
             if (node->type != kNoToken || textOf(pos()) != "=" ||
-                !reports().joinLast(Code::MissingDataType, range(pos()), "and ':=' here"))
+                !reports().joinLast(say::MissingDataType.code, range(pos()), "and ':=' here"))
                 signs().reportEqual();
             take();
             node->init = expressions().parseExpression();

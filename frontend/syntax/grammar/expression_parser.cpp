@@ -1,5 +1,6 @@
 // Expressions (manual 1.3.4 to 1.3.6).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 #include "frontend/syntax/plain_pieces.h"
 

@@ -1,5 +1,6 @@
 // Lists of instructions, and which instruction begins here (manual 1.4).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Mistakes of the lexer.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/reports.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ using diag::Code;
 
 /// The second line of a string that was broken in two: its closing '"' looks like the beginning of another string.
 bool LexicalMistakes::endsBrokenString(const LexError& error, const LexError* before) const {
-    if (error.code != Code::UnterminatedString || !before || before->code != Code::UnterminatedString)
+    if (error.code != say::UnterminatedString.code || !before || before->code != say::UnterminatedString.code)
         return false;
     const std::string_view text = in_.sourceText();
     const uint32_t line = in_.tree().source->lineColumn(error.range.begin).line;
@@ -28,18 +29,18 @@ bool LexicalMistakes::isInBrokenString(const LexResult& lexed, const LexError& e
     const LexError *begin = lexed.errors.data(), *end = begin + lexed.errors.size();
     return std::any_of(std::max(begin, &escape - std::min(kNear, &escape - begin)),
                        &escape + std::min(kNear, end - &escape), [&](const LexError& e) {
-                           return e.code == Code::UnterminatedString && e.range.begin <= escape.range.begin &&
-                                  escape.range.end <= e.range.end;
+                           return e.code == say::UnterminatedString.code &&
+                                  e.range.begin <= escape.range.begin && escape.range.end <= e.range.end;
                        });
 }
 
 void LexicalMistakes::report(const LexResult& lexed, Reports& reports) {
     const LexError* before = nullptr;
     for (const LexError& error : lexed.errors) {
-        badNumbers_ |= error.code == Code::BadNumber;
-        if (error.code == Code::BadNumber) continue; // reported where the number is read
-        if (error.code == Code::ForeignSpelling && error.args[0] == "==") continue; // so is what it means
-        if (error.code == Code::BadStringEscape && isInBrokenString(lexed, error)) continue;
+        badNumbers_ |= error.code == say::BadNumber.code;
+        if (error.code == say::BadNumber.code) continue; // reported where the number is read
+        if (error.code == say::ForeignSpelling.code && error.args[0] == "==") continue; // so is what it means
+        if (error.code == say::BadStringEscape.code && isInBrokenString(lexed, error)) continue;
         const LexError* last = std::exchange(before, &error);
         if (endsBrokenString(error, last)) {
             hideBetween(last->range, error.range);
@@ -47,14 +48,14 @@ void LexicalMistakes::report(const LexResult& lexed, Reports& reports) {
             continue;
         }
         const size_t errors = reports.countError();
-        if (error.code == Code::UnterminatedString) {
+        if (error.code == say::UnterminatedString.code) {
             brokenStrings_.push_back({error.range, {}});
             continue;
         }
         reported_.push_back(error.range.begin);
         if (errors <= kMaxErrorsPerFile) {
             diag::Diagnostic& d = sink_.report(error.code, in_.tree().source, error.range, error.args);
-            if (error.code == Code::BadStringEscape) fixEscapes(d);
+            if (error.code == say::BadStringEscape.code) fixEscapes(d);
             if (error.fix) d.fix(error.range, *error.fix);
         } else if (errors == kMaxErrorsPerFile + 1) {
             sink_.report(say::TooManyErrors, in_.tree().source, error.range, {"errors"});

@@ -1,5 +1,6 @@
 // Files and modules (manual 1.1.3).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 #include "frontend/syntax/tree_walk.h"
 

@@ -1,5 +1,6 @@
 // One mistake, one message.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>
@@ -13,28 +14,31 @@ namespace {
 
 /// Codes of words that could not be read: the next ones may be misread.
 bool isUnread(Code code) {
-    constexpr Code kAll[] = {Code::UnexpectedToken,           Code::MissingClosing,   Code::MissingSemicolon,
-                             Code::InstructionOutsideRoutine, Code::PartOfCallResult, Code::BadNumber};
+    constexpr Code kAll[] = {say::UnexpectedToken.code,  say::MissingClosing.code,
+                             say::MissingSemicolon.code, say::InstructionOutsideRoutine.code,
+                             say::PartOfCallResult.code, say::BadNumber.code};
     return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
 }
 
 /// Codes that only say that other words are expected.
 bool isOnlyUnexpected(Code code) {
-    constexpr Code kAll[] = {Code::UnexpectedToken, Code::ReservedWordAsName, Code::MissingClosing,
-                             Code::MissingSemicolon, Code::InstructionOutsideRoutine};
+    constexpr Code kAll[] = {say::UnexpectedToken.code, say::ReservedWordAsName.code,
+                             say::MissingClosing.code, say::MissingSemicolon.code,
+                             say::InstructionOutsideRoutine.code};
     return std::find(std::begin(kAll), std::end(kAll), code) != std::end(kAll);
 }
 
 /// Codes of places where a name may have been torn in two.
 bool isTornPlace(Code code) {
-    return code == Code::UnexpectedToken || code == Code::MissingClosing || code == Code::MissingBlockWord;
+    return code == say::UnexpectedToken.code || code == say::MissingClosing.code ||
+           code == say::MissingBlockWord.code;
 }
 
 } // namespace
 
 diag::Diagnostic* Reports::reportCode(Code code, SourceRange range, std::span<const std::string> args) {
     if (panic_) return nullptr;
-    if (code >= Code::UnexpectedToken && code < Code::MissingSemicolon) ++unreadable_;
+    if (code >= say::UnexpectedToken.code && code < say::MissingSemicolon.code) ++unreadable_;
     if (isConsequence(code, range) || followsFromLast(code, range)) return nullptr;
     if (range.begin == in_.tokenAt(in_.pos()).offset && isTornPlace(code))
         if (diag::Diagnostic* torn = torn_.reportTornName()) return torn;
@@ -51,8 +55,8 @@ diag::Diagnostic* Reports::reportCode(Code code, SourceRange range, std::span<co
 
 /// Whether the lexer has said it: about this token, or about a string in the line that lacks one of its quotes.
 bool Reports::isConsequence(Code code, SourceRange range) {
-    if (code != Code::UnexpectedToken && code != Code::MissingClosing && code != Code::MissingSemicolon &&
-        code != Code::MissingBlockWord)
+    if (code != say::UnexpectedToken.code && code != say::MissingClosing.code &&
+        code != say::MissingSemicolon.code && code != say::MissingBlockWord.code)
         return false;
     return isMarked(Mark::AfterBadNumber, in_.pos()) || lexical_.covers(range);
 }
@@ -113,7 +117,7 @@ void Reports::fix(diag::Diagnostic* diagnostic, SourceRange place, std::string r
     if (!diagnostic) return;
     diagnostic->fix(place, std::move(replacement), certain);
     // The words after it are read as they were meant, unless a line just seems to end too early.
-    if (certain && diagnostic->code != Code::MissingSemicolon) forgetUnread();
+    if (certain && diagnostic->code != say::MissingSemicolon.code) forgetUnread();
 }
 
 void Reports::fixParentheses(diag::Diagnostic* diagnostic, const Node& operand) {

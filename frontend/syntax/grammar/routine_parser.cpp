@@ -1,5 +1,6 @@
 // Routines (manual 1.1.5).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Assignments, calls, and instructions of one word and an operand (manual 1.1.5, 1.4, 1.5, 1.11, 1.12).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <utility>

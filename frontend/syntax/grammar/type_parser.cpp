@@ -1,5 +1,6 @@
 // Records and aliases (manual 1.2.1).
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {

@@ -1,5 +1,6 @@
 // Heads and branches of blocks: one word written for another one, words too many.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {

@@ -1,5 +1,6 @@
 // END words that are missing, misplaced or written in a different way.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // Blocks, heads and declarations in the form of other languages.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>
@@ -73,7 +74,8 @@ bool ForeignForms::isForeignCloser(TokenIndex i) const {
 StmtList ForeignForms::parseBody(const TokenSet& own, const std::string& expected, bool& braced) {
     if ((kind() == K::LeftBrace && recovery().repair(Place::Braces)) || kind() != K::LeftBrace || panic())
         return instructions().parseInstructions(own);
-    if (!braced && !reports().joinLast(Code::ForeignSpelling, range(pos()), "and no '{', but " + expected))
+    if (!braced &&
+        !reports().joinLast(say::ForeignSpelling.code, range(pos()), "and no '{', but " + expected))
         report(say::ForeignSpelling, pos(), {"{", expected});
     else if (!braced && !reports().last()->fixes.empty())
         reports().last()->fixes.front().certain = false; // the braces are still to be corrected

@@ -1,5 +1,6 @@
 // Words that became reserved late. Files of older systems (.mod, .sys, .prg) may use them as names.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 #include "frontend/syntax/later_words.h"
 

@@ -1,5 +1,6 @@
 // Names and signs that were meant as words which continue or end a list of instructions.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {

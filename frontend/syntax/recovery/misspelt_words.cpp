@@ -1,5 +1,6 @@
 // Misspelt keywords.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/source/spelling.h"
 #include "frontend/syntax/grammar/parts.h"
 

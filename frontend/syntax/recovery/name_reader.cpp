@@ -1,5 +1,6 @@
 // Names, and reserved words in their place.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 #include "frontend/syntax/later_words.h"
 

@@ -1,5 +1,6 @@
 // Signs that slips, or other languages, put in the place of those of RAPID, and comments without '!'.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {

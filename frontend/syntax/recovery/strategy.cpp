@@ -1,5 +1,6 @@
 #include "frontend/syntax/recovery/strategy.h"
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {
@@ -58,7 +59,7 @@ const Repair* Recovery::repair(const Situation& at) {
 }
 
 void Recovery::apply(const Repair& repair) {
-    if (repair.code == diag::Code::MisspeltKeyword && repair.args.empty() && !repair.silent) {
+    if (repair.code == diag::say::MisspeltKeyword.code && repair.args.empty() && !repair.silent) {
         moveTo(repair.first);
         typos().readAsKeyword(repair.first, repair.last, repair.as);
     } else if (!repair.silent) {

@@ -1,6 +1,7 @@
 #pragma once
 // Recovery strategies: each explains one kind of mistake by an edit of the tokens.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parser_part.h"
 
 #include <optional>
@@ -53,7 +54,7 @@ struct Repair {
     TokenKind as = TokenKind::Error;
     TokenIndex next = 0; ///< where the parser reads on
     /// Reported without `args`: what MisspeltWords::readAsKeyword() says.
-    diag::Code code = diag::Code::MisspeltKeyword;
+    diag::Code code = diag::say::MisspeltKeyword.code;
     SourceRange range = {};
     std::vector<std::string> args = {};
     std::optional<TextEdit> edit = {}; ///< of the text

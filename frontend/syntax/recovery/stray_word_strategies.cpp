@@ -1,5 +1,6 @@
 // Words that end a list of instructions, but not the one that is being read.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <fmt/format.h>

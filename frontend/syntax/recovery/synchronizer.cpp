@@ -1,5 +1,6 @@
 // Finds a place to continue parsing from after a mistake.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <fmt/format.h>

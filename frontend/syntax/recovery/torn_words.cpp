@@ -1,6 +1,7 @@
 // Names that were torn ("p Pick", "my-name") or have run into the word before them ("VARnum", "PROCMove()"): one report, and
 // what was meant as the fix when the whole name is used elsewhere.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Names that were meant as keywords, at the beginning of declarations and instructions and in expressions.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 namespace rapid::syntax {

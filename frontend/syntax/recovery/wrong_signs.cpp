@@ -1,5 +1,6 @@
 // Punctuation and operators that other languages, or slips, put in the place of those of RAPID.
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/grammar/parts.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ bool WrongSigns::takesColonAs(std::string_view word) {
         const std::string meant = (spaced ? "" : " ") + std::string(word);
         constexpr TokenSet kEnds = kIfEnds | TokenSet{K::KwEndfor, K::KwEndwhile};
         const bool closed = kEnds.has(kindAt(block().unmatchedWord(pos() + 1)));
-        if (!reports().joinLastEdit(Code::ForeignSpelling, range(pos()), meant)) // "if a == b:"
+        if (!reports().joinLastEdit(say::ForeignSpelling.code, range(pos()), meant)) // "if a == b:"
             fix(report(say::MissingBlockWord, pos(), {describe(pos()), std::string(word)}), range(pos()),
                 meant, closed);
         else if (!closed)

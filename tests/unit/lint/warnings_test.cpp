@@ -3,6 +3,8 @@
 #include "lint_testing.h"
 
 #include "frontend/diag/catalogue.h"
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/warnings.h"
 
 #include <catch2/catch.hpp>
 #include <set>
@@ -42,23 +44,23 @@ TEST_CASE("names of warnings are the names of the catalogue in kebab-case, each 
 TEST_CASE("options switch warnings off, on, and make errors of them", "[lint]") {
     lint::WarningLevels levels;
     std::string problem;
-    CHECK(levels.of(Code::UnusedVariable) == Level::Warning);
+    CHECK(levels.of(say::UnusedVariable.code) == Level::Warning);
     REQUIRE(lint::applyOption("no-unused-variable", levels, problem));
-    CHECK(levels.of(Code::UnusedVariable) == Level::Off);
-    CHECK(levels.of(Code::UnusedLabel) == Level::Warning);
+    CHECK(levels.of(say::UnusedVariable.code) == Level::Off);
+    CHECK(levels.of(say::UnusedLabel.code) == Level::Warning);
     REQUIRE(lint::applyOption("unused-variable", levels, problem));
-    CHECK(levels.of(Code::UnusedVariable) == Level::Warning);
+    CHECK(levels.of(say::UnusedVariable.code) == Level::Warning);
     REQUIRE(lint::applyOption("error=unused-label", levels, problem));
-    CHECK(levels.of(Code::UnusedLabel) == Level::Error);
+    CHECK(levels.of(say::UnusedLabel.code) == Level::Error);
     // A warning whose name begins with "no-" is meant before its opposite.
     REQUIRE(lint::applyOption("no-lint", levels, problem));
-    CHECK(levels.of(Code::UnusedLabel) == Level::Off);
-    CHECK(levels.of(Code::DuplicateCase) == Level::Warning);
+    CHECK(levels.of(say::UnusedLabel.code) == Level::Off);
+    CHECK(levels.of(say::DuplicateCase.code) == Level::Warning);
     CHECK_FALSE(levels.anyLint());
     // All warnings are errors: those that are off stay off.
     REQUIRE(lint::applyOption("error", levels, problem));
-    CHECK(levels.of(Code::DuplicateCase) == Level::Error);
-    CHECK(levels.of(Code::UnusedLabel) == Level::Off);
+    CHECK(levels.of(say::DuplicateCase.code) == Level::Error);
+    CHECK(levels.of(say::UnusedLabel.code) == Level::Off);
 }
 
 TEST_CASE("options with names that are not warnings are reported", "[lint]") {
@@ -80,11 +82,11 @@ TEST_CASE("settings give levels to warnings; names say more than groups", "[lint
         settings(R"({"warnings": {"unused-label": "error", "lint": "off", "all": "warning"}})", sink), levels,
         sink);
     CHECK(sink.all().empty());
-    CHECK(levels.of(Code::UnusedLabel) == Level::Error);
+    CHECK(levels.of(say::UnusedLabel.code) == Level::Error);
     lint::WarningLevels others;
     lint::applySettings(settings(R"({"warnings": {"unused-label": "off"}})", sink), others, sink);
-    CHECK(others.of(Code::UnusedLabel) == Level::Off);
-    CHECK(others.of(Code::UnusedVariable) == Level::Warning);
+    CHECK(others.of(say::UnusedLabel.code) == Level::Off);
+    CHECK(others.of(say::UnusedVariable.code) == Level::Warning);
 }
 
 TEST_CASE("settings that cannot be used are reported at their place", "[lint]") {

@@ -1,5 +1,6 @@
 // Backups of controllers and what real ones hold in store: one case for each of their traps.
 
+#include "frontend/diag/messages/projects.h"
 #include "frontend/project/backinfo.h"
 #include "frontend/project/project.h"
 #include "frontend/project/system_parameters.h"
@@ -36,7 +37,7 @@ class Backup {
     std::string codes() const {
         std::vector<std::string> names;
         for (const diag::Diagnostic& d : sink.all())
-            if (d.code != diag::Code::BackupOverview && d.code != diag::Code::TaskOverview)
+            if (d.code != diag::say::BackupOverview.code && d.code != diag::say::TaskOverview.code)
                 names.push_back(diag::codeName(d.code));
         std::sort(names.begin(), names.end());
         std::string out;
@@ -155,10 +156,10 @@ TEST_CASE("a backup brings its tasks", "[project][backup]") {
     CHECK(backup.project.configFiles == std::vector<std::string>{backup.path() + "/SYSPAR/SYS.cfg"});
     CHECK(backup.project.robotWareOptions == std::vector<std::string>{"623-1 Multitasking"});
     CHECK(backup.project.homeFolder == backup.path() + "/HOME");
-    CHECK(backup.message(diag::Code::BackupOverview) ==
+    CHECK(backup.message(diag::say::BackupOverview.code) ==
           "backup of system 'x', RobotWare 7.10: 2 tasks, 0 signals; no SYSPAR/EIO.cfg: its signals are not "
           "known");
-    CHECK(backup.message(diag::Code::TaskOverview) ==
+    CHECK(backup.message(diag::say::TaskOverview.code) ==
           "task 'T_ROB1': NORMAL, motion, entry 'main': 2 modules; 1 encrypted (secret.sys); names that no "
           "module "
           "declares may be declared there");
@@ -191,7 +192,7 @@ TEST_CASE("a task of an option without modules is one warning", "[project][backu
     backup.load();
     CHECK(backup.codes() == "RAP6057");
     CHECK(
-        backup.message(diag::Code::TaskLeftOut) ==
+        backup.message(diag::say::TaskLeftOut.code) ==
         "task 'SC_CBC' is left out: the backup has no modules for it, an option of the controller makes it");
     CHECK(backup.project.tasks.size() == 1);
 }
@@ -223,7 +224,7 @@ TEST_CASE("a missing module is reported once", "[project][backup]") {
     backup.write("RAPID/TASK1/PROGMOD/main.mod", kModule);
     backup.load();
     CHECK(backup.codes() == "RAP6055 RAP6059"); // RAP6059: hidden modules cannot be copied
-    CHECK(backup.message(diag::Code::SystemModuleNotSaved).find("'LINKEDM' of task 'T_ROB1'") !=
+    CHECK(backup.message(diag::say::SystemModuleNotSaved.code).find("'LINKEDM' of task 'T_ROB1'") !=
           std::string::npos);
     CHECK(backup.modules(0) == "main.mod ?USER.sys ?LINKEDM.sys");
 }
@@ -247,7 +248,7 @@ TEST_CASE("a backup that has lost its RAPID folder still says what was in it", "
                  "SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name \"T_ROB1\" -Type \"NORMAL\"\n");
     backup.load();
     CHECK(backup.codes() == "RAP6022 RAP6055 RAP6057");
-    CHECK(backup.message(diag::Code::BackupOverview) ==
+    CHECK(backup.message(diag::say::BackupOverview.code) ==
           "backup of system 'Cell 7': 1 task, 0 signals; no SYSPAR/EIO.cfg: its signals are not known");
     CHECK(backup.project.tasks.empty());
 }
@@ -257,7 +258,7 @@ TEST_CASE("the effect of missing system parameters is reported", "[project][back
     backup.write("BACKINFO/backinfo.txt", ">>SYSTEM_ID:\nCell 7\n>>TASK1: (T_ROB1,,)\nPROGMOD/a.mod @ \n");
     backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
     backup.load();
-    CHECK(backup.message(diag::Code::BackupOverview) ==
+    CHECK(backup.message(diag::say::BackupOverview.code) ==
           "backup of system 'Cell 7': 1 task, 0 signals; no SYSPAR/SYS.cfg: type, entry and start-up modules "
           "of the tasks are not known; no SYSPAR/EIO.cfg: its signals are not known");
 }
@@ -266,7 +267,7 @@ TEST_CASE("the program of a backup alone is not asked for system parameters", "[
     Backup backup;
     backup.write("RAPID/TASK1/PROGMOD/a.mod", kModule);
     backup.load();
-    CHECK(backup.message(diag::Code::BackupOverview) == "backup: 1 task, 0 signals");
+    CHECK(backup.message(diag::say::BackupOverview.code) == "backup: 1 task, 0 signals");
 }
 
 TEST_CASE("of a folder with two backups each is named", "[project][backup]") {
@@ -278,7 +279,7 @@ TEST_CASE("of a folder with two backups each is named", "[project][backup]") {
         backup.write(one + "/HOME/lib/b.mod", kModule);
     }
     backup.load();
-    CHECK(backup.message(diag::Code::FolderWithoutModules)
+    CHECK(backup.message(diag::say::FolderWithoutModules.code)
               .ends_with("there are some in '" + backup.path() + "/monday', '" + backup.path() +
                          "/tuesday': name one of these"));
 }
@@ -313,7 +314,7 @@ TEST_CASE("modules of add-ins and of RobotWare are not saved", "[project][backup
     CHECK(backup.modules(0) == "main.mod user.sys Tools.SYS ?outside ?TRobCore ?Screen");
     CHECK(backup.codes() == "RAP6054 RAP6054 RAP6059");
     CHECK(backup.project.tasks.at(0).incomplete);
-    CHECK(backup.message(diag::Code::SystemModuleNotSaved).find("'Screen' of task 'T_ROB1'") !=
+    CHECK(backup.message(diag::say::SystemModuleNotSaved.code).find("'Screen' of task 'T_ROB1'") !=
           std::string::npos);
 }
 
@@ -355,7 +356,7 @@ TEST_CASE("a task of which nothing can be read is left out", "[project][backup]"
     backup.write("RAPID/TASK2/PROGMOD/x.mod", "\xFE\x01\x02\x03\x04\x05");
     backup.load();
     CHECK(backup.codes() == "RAP6027 RAP6057");
-    CHECK(backup.message(diag::Code::TaskLeftOut) ==
+    CHECK(backup.message(diag::say::TaskLeftOut.code) ==
           "task 'T_BG' is left out: all its modules are encrypted");
     REQUIRE(backup.project.tasks.size() == 1);
 }
@@ -368,7 +369,7 @@ TEST_CASE("a folder of a task without a module is one warning", "[project][backu
     backup.write("RAPID/TASK7/PROGMOD/readme.txt", "");
     backup.load();
     CHECK(backup.codes() == "RAP6053 RAP6057"); // RAP6053: T_BG
-    CHECK(backup.message(diag::Code::TaskLeftOut) ==
+    CHECK(backup.message(diag::say::TaskLeftOut.code) ==
           "task 'TASK7' is left out: the backup has no modules for it");
 }
 

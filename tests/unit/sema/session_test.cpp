@@ -2,6 +2,7 @@
 
 #include "sema_testing.h"
 
+#include "frontend/diag/messages/names.h"
 #include "frontend/sema/session.h"
 #include "frontend/syntax/tree_walk.h"
 
@@ -424,5 +425,5 @@ TEST_CASE("a session takes no file that it does not know", "[session]") {
     CHECK(
         session.change(std::make_shared<const SourceFile>("a.modx", "MODULE a\n  VAR nix n;\nENDMODULE\n")));
     REQUIRE(session.diagnostics().size() == 1);
-    CHECK(session.diagnostics()[0].code == diag::Code::UnknownType);
+    CHECK(session.diagnostics()[0].code == diag::say::UnknownType.code);
 }

@@ -1,5 +1,8 @@
 // Rules about whole tasks: entry routine, several modules and files, persistents shared by tasks, hard programs.
 
+#include "frontend/diag/messages/flow.h"
+#include "frontend/diag/messages/names.h"
+#include "frontend/diag/messages/projects.h"
 #include "sema_testing.h"
 
 #include <catch2/catch.hpp>
@@ -74,7 +77,7 @@ TEST_CASE("placeholders are notes: a program with them can be loaded", "[sema]")
     const auto checked = checkTexts({text});
     CHECK(checked->messages().empty());
     CHECK(checked->sink.all().size() == 2);
-    CHECK(checked->sink.all()[0].code == diag::Code::Placeholder);
+    CHECK(checked->sink.all()[0].code == diag::say::Placeholder.code);
     const auto run = checkMain({text});
     CHECK(run->messages().empty());
 }
@@ -94,7 +97,7 @@ TEST_CASE("every placeholder is noted once", "[sema]") {
     const auto checked = checkTexts({text});
     std::set<uint32_t> noted;
     for (const diag::Diagnostic& d : checked->sink.all()) {
-        if (d.code != diag::Code::Placeholder) continue;
+        if (d.code != diag::say::Placeholder.code) continue;
         CHECK(text[d.range.begin] == '<');
         CHECK(noted.insert(d.range.begin).second);
     }
@@ -111,7 +114,7 @@ TEST_CASE("a file given twice is read once", "[sema]") {
     diag::Sink sink;
     const auto program = check({task}, options, sink);
     REQUIRE(sink.all().size() == 1);
-    CHECK(sink.all()[0].code == diag::Code::SameFileTwice);
+    CHECK(sink.all()[0].code == diag::say::SameFileTwice.code);
     CHECK(program->tasks[0]->modules.size() == 1);
 }
 
@@ -169,7 +172,7 @@ TEST_CASE("two tasks cannot have one name", "[sema]") {
     diag::Sink sink;
     check({a, b}, options, sink);
     REQUIRE(sink.all().size() == 1);
-    CHECK(sink.all()[0].code == diag::Code::DuplicateTask);
+    CHECK(sink.all()[0].code == diag::say::DuplicateTask.code);
 }
 
 TEST_CASE("an incomplete task does not report names it cannot know", "[sema]") {
@@ -184,8 +187,8 @@ TEST_CASE("an incomplete task does not report names it cannot know", "[sema]") {
     check({task}, options, sink);
     CHECK(sink.errorCount() == 1);
     for (const diag::Diagnostic& d : sink.all())
-        CHECK(d.code ==
-              (d.severity == diag::Severity::Error ? diag::Code::AssignType : diag::Code::MayBeDeclared));
+        CHECK(d.code == (d.severity == diag::Severity::Error ? diag::say::AssignType.code
+                                                             : diag::say::MayBeDeclared.code));
 }
 
 TEST_CASE("one mistake in a declaration does not report every use", "[sema]") {

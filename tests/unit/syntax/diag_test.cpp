@@ -3,6 +3,10 @@
 #include "syntax_test.h"
 
 #include "frontend/diag/catalogue.h"
+#include "frontend/diag/messages/calls.h"
+#include "frontend/diag/messages/projects.h"
+#include "frontend/diag/messages/syntax.h"
+#include "frontend/diag/messages/warnings.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -49,7 +53,7 @@ TEST_CASE("every text of the catalogue follows the wording rules", "[diag]") {
         CHECK(diag::findEntry(entry.number) == &entry);
     }
     CHECK(diag::findEntry(1) == nullptr);
-    CHECK(diag::codeName(Code::UnexpectedCharacter) == "RAP1001");
+    CHECK(diag::codeName(say::UnexpectedCharacter.code) == "RAP1001");
 }
 
 TEST_CASE("braces in a catalogue text are not placeholders", "[diag]") {
@@ -61,9 +65,9 @@ TEST_CASE("braces in a catalogue text are not placeholders", "[diag]") {
 TEST_CASE("mistakes that are in no file are limited, too", "[diag]") {
     diag::Sink sink;
     for (int i = 0; i < 1500; ++i)
-        sink.report(Code::FileNotFound, nullptr, {}, {"a"});
+        sink.report(say::FileNotFound.code, nullptr, {}, {"a"});
     CHECK(sink.all().size() == 1001);
-    CHECK(sink.all().back().code == Code::TooManyErrors);
+    CHECK(sink.all().back().code == say::TooManyErrors.code);
     CHECK(sink.errorCount() == 1500);
 }
 
@@ -76,14 +80,14 @@ TEST_CASE("a message stays readable whatever it quotes", "[diag]") {
 TEST_CASE("diagnostics are sorted by place, the limit comes last", "[diag]") {
     diag::Sink sink;
     const auto source = file("abc\ndef\n");
-    sink.report(Code::TooManyErrors, source, {0, 1}, {"errors"});
-    sink.report(Code::EqualInAssignment, source, {5, 6});
-    sink.report(Code::UnterminatedString, source, {1, 2});
+    sink.report(say::TooManyErrors.code, source, {0, 1}, {"errors"});
+    sink.report(say::EqualInAssignment.code, source, {5, 6});
+    sink.report(say::UnterminatedString.code, source, {1, 2});
     const auto sorted = sink.sorted();
     REQUIRE(sorted.size() == 3);
     CHECK(sorted[0].range.begin == 1);
     CHECK(sorted[1].range.begin == 5);
-    CHECK(sorted[2].code == Code::TooManyErrors);
+    CHECK(sorted[2].code == say::TooManyErrors.code);
     CHECK(sink.errorCount() == 2);
     CHECK(sink.hasErrors());
 }
@@ -93,18 +97,19 @@ TEST_CASE("so many errors and so many warnings are kept of a file, and a note re
     const auto source = file("abc"), other = file("def");
     constexpr size_t kMost = diag::Sink::kMaxPerFile;
     for (size_t i = 0; i < kMost + 500; ++i) {
-        sink.report(Code::EqualInAssignment, source, {0, 1}).fix({0, 1}, ":=");
-        sink.report(Code::UnusedVariable, source, {1, 2}, {"a"}).notes.push_back({source, {1, 2}, "here"});
+        sink.report(say::EqualInAssignment.code, source, {0, 1}).fix({0, 1}, ":=");
+        sink.report(say::UnusedVariable.code, source, {1, 2}, {"a"})
+            .notes.push_back({source, {1, 2}, "here"});
     }
     CHECK(sink.errorCount() == kMost + 500);
     CHECK(sink.all().size() == 2 * kMost + 2);
     const auto notes = std::count_if(sink.all().begin(), sink.all().end(), [](const diag::Diagnostic& d) {
-        return d.code == Code::TooManyErrors && d.severity == diag::Severity::Note;
+        return d.code == say::TooManyErrors.code && d.severity == diag::Severity::Note;
     });
     CHECK(notes == 2);
-    sink.report(Code::EqualInAssignment, other, {0, 1});
+    sink.report(say::EqualInAssignment.code, other, {0, 1});
     CHECK(sink.all().back().file == other);
-    CHECK(sink.all().back().code == Code::EqualInAssignment);
+    CHECK(sink.all().back().code == say::EqualInAssignment.code);
 }
 
 TEST_CASE("columns count characters, also far out in a line", "[source]") {
@@ -125,7 +130,7 @@ TEST_CASE("columns count characters, also far out in a line", "[source]") {
 TEST_CASE("text: heading, excerpt, marks", "[diag]") {
     diag::Sink sink;
     const auto source = file("MODULE m\n\tx\t= größer;\nENDMODULE\n");
-    auto& d = sink.report(Code::EqualInAssignment, source, {12, 13});
+    auto& d = sink.report(say::EqualInAssignment.code, source, {12, 13});
     d.notes.push_back({source, {0, 6}, "MODULE begins here"});
     CHECK(renderText(d, false) == "a.modx:2:4: error[RAP1205]: found '=', expected ':='\n"
                                   "    2 |     x   = größer;\n"
@@ -139,21 +144,19 @@ TEST_CASE("text: heading, excerpt, marks", "[diag]") {
 TEST_CASE("text: places at ends and over several lines", "[diag]") {
     diag::Sink sink;
     const auto source = file("ab\ncd");
-    CHECK(
-        renderText(sink.report(Code::EqualInAssignment, source, {2, 2}), false).find(" ab\n      |   ^\n") !=
-        std::string::npos);
-    CHECK(renderText(sink.report(Code::EqualInAssignment, source, {1, 5}), false).find(" ab\n      |  ^\n") !=
-          std::string::npos);
-    CHECK(
-        renderText(sink.report(Code::EqualInAssignment, source, {5, 5}), false).find(" cd\n      |   ^\n") !=
-        std::string::npos);
+    CHECK(renderText(sink.report(say::EqualInAssignment.code, source, {2, 2}), false)
+              .find(" ab\n      |   ^\n") != std::string::npos);
+    CHECK(renderText(sink.report(say::EqualInAssignment.code, source, {1, 5}), false)
+              .find(" ab\n      |  ^\n") != std::string::npos);
+    CHECK(renderText(sink.report(say::EqualInAssignment.code, source, {5, 5}), false)
+              .find(" cd\n      |   ^\n") != std::string::npos);
 }
 
 TEST_CASE("text: a long line is cut around the place, control characters are not passed on", "[diag]") {
     diag::Sink sink;
     const std::string line = std::string(5000, 'a') + "HERE" + std::string(5000, 'b');
     const std::string shown =
-        renderText(sink.report(Code::EqualInAssignment, file(line), {5000, 5004}), false);
+        renderText(sink.report(say::EqualInAssignment.code, file(line), {5000, 5004}), false);
     CHECK(shown.size() < 400);
     CHECK(shown.find("aHEREb") != std::string::npos);
     const size_t row = shown.find("...a");
@@ -164,13 +167,13 @@ TEST_CASE("text: a long line is cut around the place, control characters are not
     CHECK(shown.find("HERE") - lineStart == marks - markStart);
 
     const std::string evil =
-        renderText(sink.report(Code::EqualInAssignment, file("a\x1b[31mb"), {0, 1}), false);
+        renderText(sink.report(say::EqualInAssignment.code, file("a\x1b[31mb"), {0, 1}), false);
     CHECK(evil.find('\x1b') == std::string::npos);
 }
 
 TEST_CASE("a message without a file", "[diag]") {
     diag::Sink sink;
-    const auto& d = sink.report(Code::NoModule, nullptr, {0, 0});
+    const auto& d = sink.report(say::NoModule.code, nullptr, {0, 0});
     CHECK(renderText(d, false) == "rapidc: error[RAP1301]: file contains no module, expected MODULE\n");
     const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
     CHECK(json[0]["file"] == "");
@@ -182,7 +185,7 @@ TEST_CASE("JSON: an array of objects, columns count characters", "[diag]") {
     CHECK(nlohmann::json::parse(diag::renderJson({})) == nlohmann::json::array());
     diag::Sink sink;
     const auto source = file("é = 1;\n");
-    sink.report(Code::EqualInAssignment, source, {3, 4});
+    sink.report(say::EqualInAssignment.code, source, {3, 4});
     const auto json = nlohmann::json::parse(renderJson(sink.sorted()));
     REQUIRE(json.size() == 1);
     CHECK(json[0] == nlohmann::json({{"file", "a.modx"},
@@ -200,7 +203,7 @@ TEST_CASE("comments outside of modules are noted once", "[diag]") {
         const test::Parsed parsed = test::parseText(text);
         size_t count = 0;
         for (const diag::Diagnostic& d : parsed.sink.all())
-            count += d.code == Code::CommentOutsideModule && d.severity == diag::Severity::Note ? 1 : 0;
+            count += d.code == say::CommentOutsideModule.code && d.severity == diag::Severity::Note ? 1 : 0;
         return std::make_pair(count, parsed.sink.all().size());
     };
     using Count = std::pair<size_t, size_t>;
@@ -212,7 +215,7 @@ TEST_CASE("comments outside of modules are noted once", "[diag]") {
 
 TEST_CASE("JSON: bytes that are not UTF-8 in a path", "[diag]") {
     diag::Sink sink;
-    sink.report(Code::NoModule, std::make_shared<const SourceFile>("\xFF.modx", ""), {0, 0});
+    sink.report(say::NoModule.code, std::make_shared<const SourceFile>("\xFF.modx", ""), {0, 0});
     CHECK(nlohmann::json::parse(renderJson(sink.sorted())).size() == 1);
     CHECK_FALSE(nlohmann::json::parse(renderSarif(sink.sorted())).empty());
 }
@@ -220,7 +223,7 @@ TEST_CASE("JSON: bytes that are not UTF-8 in a path", "[diag]") {
 TEST_CASE("a fix is worded by what it changes", "[diag]") {
     diag::Sink sink;
     const auto source = file("x = 1\n");
-    auto& d = sink.report(Code::EqualInAssignment, source, {2, 3});
+    auto& d = sink.report(say::EqualInAssignment.code, source, {2, 3});
     d.fix({2, 3}, ":=").fix({5, 5}, ";", false).fix({1, 3}, "");
     REQUIRE(d.fixes.size() == 3);
     CHECK(d.fixes[0].message == "replace '=' with ':='");
@@ -251,7 +254,7 @@ TEST_CASE("a fix is worded by what it changes", "[diag]") {
 TEST_CASE("SARIF 2.1.0", "[diag]") {
     diag::Sink sink;
     const auto source = std::make_shared<const SourceFile>("my folder/a.modx", "x = 1;\n");
-    auto& d = sink.report(Code::EqualInAssignment, source, {2, 3});
+    auto& d = sink.report(say::EqualInAssignment.code, source, {2, 3});
     d.notes.push_back({source, {0, 1}, "here"});
     const auto sarif = nlohmann::json::parse(renderSarif(sink.sorted()));
     CHECK(sarif["version"] == "2.1.0");
@@ -273,7 +276,7 @@ TEST_CASE("SARIF: paths are relative to the root, outside of it file URIs", "[di
     diag::Sink sink;
     const auto uri = [](const std::string& path) {
         diag::Sink one;
-        one.report(Code::EqualInAssignment, std::make_shared<const SourceFile>(path, "x = 1;\n"), {2, 3});
+        one.report(say::EqualInAssignment.code, std::make_shared<const SourceFile>(path, "x = 1;\n"), {2, 3});
         const auto sarif = nlohmann::json::parse(renderSarif(one.sorted(), "/work/cell 1"));
         CHECK(sarif["runs"][0]["originalUriBaseIds"]["%SRCROOT%"]["uri"] == "file:///work/cell%201/");
         const auto artifact =
@@ -291,8 +294,8 @@ TEST_CASE("SARIF: what a code scanning service needs is there", "[diag]") {
     diag::Sink sink;
     const auto source = file("x = 1;\n\n  x  = 1;\nx = 2;\n");
     for (const uint32_t at : {2u, 13u, 19u})
-        sink.report(Code::EqualInAssignment, source, {at, at + 1});
-    sink.report(Code::NoInput, nullptr, {0, 0});
+        sink.report(say::EqualInAssignment.code, source, {at, at + 1});
+    sink.report(say::NoInput.code, nullptr, {0, 0});
     const auto sarif = nlohmann::json::parse(renderSarif(sink.sorted(), "/work"));
     CHECK(sarif["$schema"].get<std::string>().find("sarif-2.1.0") != std::string::npos);
     REQUIRE(sarif["runs"].size() == 1);

@@ -3,6 +3,7 @@
 #include "ebnf.h"
 #include "syntax_test.h"
 
+#include "frontend/diag/messages/syntax.h"
 #include "frontend/syntax/token_set.h"
 
 #include <catch2/catch.hpp>
@@ -67,7 +68,7 @@ TEST_CASE("random sentences of the grammar parse without a diagnostic", "[syntax
         if (parsed.sink.all().empty() && syntax::printSource(*parsed.tree) == text) continue;
         INFO("seed " << seed << "\n" << text << "\n" << parsed.shown());
         for (const diag::Diagnostic& d : parsed.sink.all())
-            REQUIRE(d.code == diag::Code::CommentOutsideModule);
+            REQUIRE(d.code == diag::say::CommentOutsideModule.code);
         REQUIRE(syntax::printSource(*parsed.tree) == text);
     }
     CHECK(tokens > 100u * kSentences / 10);

@@ -1,5 +1,6 @@
 // Words that became reserved late, in files of older and newer systems.
 
+#include "frontend/diag/messages/syntax.h"
 #include "syntax_test.h"
 
 #include <catch2/catch.hpp>
@@ -33,12 +34,12 @@ const std::string kProgram = "MODULE m\n"
 } // namespace
 
 TEST_CASE("a file of an older system uses a later word as a name: one note", "[syntax]") {
-    const std::vector<Code> note = {Code::LaterReservedWord};
+    const std::vector<Code> note = {say::LaterReservedWord.code};
     for (const char* path : {"m.mod", "m.sys", "m.prg", "M.MOD"}) {
         INFO(path);
         CHECK(codesOf(path, kProgram) == note);
     }
-    const std::vector<Code> error = {Code::ReservedWordAsName};
+    const std::vector<Code> error = {say::ReservedWordAsName.code};
     for (const char* path : {"m.modx", "m.sysx"}) {
         INFO(path);
         CHECK(codesOf(path, kProgram) == error);

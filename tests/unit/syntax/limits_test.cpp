@@ -1,5 +1,6 @@
 // Inputs at and beyond the limits: deep, long, many.
 
+#include "frontend/diag/messages/syntax.h"
 #include "syntax_test.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +22,7 @@ std::string repeat(const std::string& text, size_t count) {
 void checkOneTooDeep(const std::string& body) {
     const test::Parsed parsed = parseText(inProcedure(body));
     REQUIRE(parsed.sink.all().size() == 1);
-    CHECK(parsed.sink.all()[0].code == diag::Code::NestingTooDeep);
+    CHECK(parsed.sink.all()[0].code == diag::say::NestingTooDeep.code);
     CHECK(syntax::printSource(*parsed.tree) == inProcedure(body));
     CHECK_FALSE(syntax::printTree(*parsed.tree).empty());
 }

@@ -1,5 +1,6 @@
 // One mistake costs one diagnostic, at the place where it was made.
 
+#include "frontend/diag/messages/syntax.h"
 #include "syntax_test.h"
 
 #include <catch2/catch.hpp>
@@ -250,7 +251,7 @@ TEST_CASE("no more than 200 errors a file, and a note that there are more", "[sy
     const test::Parsed parsed = parseText(inProcedure(body));
     CHECK(parsed.sink.errorCount() == 200);
     REQUIRE(parsed.sink.all().size() == 201);
-    CHECK(parsed.sink.sorted().back().code == diag::Code::TooManyErrors);
+    CHECK(parsed.sink.sorted().back().code == diag::say::TooManyErrors.code);
     CHECK(parsed.tree->modules.size() == 1);
 }
 
