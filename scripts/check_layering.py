@@ -176,7 +176,7 @@ def check_includes(path, lines, errors):
             continue
         target = name
         if target.split("/")[0] not in OWN_FOLDERS:
-            if "/" not in target or target.startswith("gen/") or (layer == "tests" and target.startswith("unit/")):
+            if "/" not in target or target.startswith("natives/") or (layer == "tests" and target.startswith("unit/")):
                 continue  # beside the file, generated, or a helper of the unit tests
             errors.append(f'{path}:{number}: "{name}": own headers are included by their path from the root')
             continue

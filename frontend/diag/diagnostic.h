@@ -21,11 +21,13 @@ enum class Severity : uint8_t { Error, Warning, Note };
 /// 7xxx lowering and linking, 8xxx lint, 9xxx internal.
 enum class Code : uint16_t {};
 
-/// A diagnostic and the number of its arguments: a report with a different number does not compile. The messages are in
-/// frontend/diag/messages, a header for each thousand: say::MissingArgument.
+/// A diagnostic and the number of its arguments: a report with a different number does not compile.
 template <size_t N> struct Message {
     Code code;
 };
+
+/// The messages: say::MissingArgument. A header of frontend/diag/messages declares those of a thousand.
+namespace say {}
 
 /// The arguments of a message with N of them, N > 0: `{a, b}`.
 template <size_t N> using MessageArgs = const std::string (&)[N];

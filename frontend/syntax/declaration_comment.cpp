@@ -35,7 +35,7 @@ void addToValue(std::string_view words, DeclarationComment& out) {
     value += words;
 }
 
-/// Where the key begins that ends at a colon ("effects:", lower-case letters); the place of the colon if none does.
+/// The offset of the key ("effects:", lower-case letters) that ends at a colon; that of the colon if none does.
 size_t keyBefore(std::string_view line, size_t colon) {
     size_t begin = colon;
     while (begin > 0 && line[begin - 1] >= 'a' && line[begin - 1] <= 'z')

@@ -15,6 +15,7 @@ namespace lsp {
 namespace diag = rapid::diag;
 namespace fs = std::filesystem;
 using diag::Code;
+namespace say = diag::say;
 using Diagnostics = std::vector<const diag::Diagnostic*>;
 
 namespace {

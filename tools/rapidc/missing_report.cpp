@@ -24,6 +24,7 @@ namespace {
 namespace diag = rapid::diag;
 namespace sema = rapid::sema;
 using diag::Code;
+namespace say = diag::say;
 using Json = nlohmann::ordered_json;
 
 struct Place {

@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 /// The opener of the innermost block around this one that a word belongs to; kNoToken when there is none.
 TokenIndex BlockContext::outerOpenerOf(K word) const {
     struct Family {

@@ -8,8 +8,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 Stmt* BlockParser::parseIf() {
     const TokenIndex opening = take();
     const Restore outerCondition(block().inCondition);

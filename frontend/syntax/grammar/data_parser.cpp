@@ -5,8 +5,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 DataDecl* DataParser::parseData(ScopeWord scope, TokenIndex first, bool ofModule) {
     auto* node = make<DataDecl>(NodeKind::Data);
     const size_t unreadable = reports().unreadable();

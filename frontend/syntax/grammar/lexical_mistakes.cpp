@@ -9,8 +9,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 /// The second line of a string that was broken in two: its closing '"' looks like the beginning of another string.
 bool LexicalMistakes::endsBrokenString(const LexError& error, const LexError* before) const {
     if (error.code != say::UnterminatedString.code || !before || before->code != say::UnterminatedString.code)

@@ -4,8 +4,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 bool Lookahead::looksLikeInstruction(TokenIndex i) const {
     if (!isName(kindAt(i))) return kindAt(i) == K::Percent;
     switch (kindAt(i + 1)) {

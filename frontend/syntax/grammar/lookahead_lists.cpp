@@ -5,8 +5,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 bool Lookahead::valueWithoutSign(DataKind dataKind) const {
     constexpr TokenSet kDimension = {K::NumLiteral, K::Identifier};
     constexpr TokenIndex kMost = 6; // "[n, 2, 3]"

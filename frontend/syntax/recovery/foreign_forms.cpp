@@ -8,8 +8,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// Blocks of other languages that RAPID writes in a different way. WHILE is what closes DO.

@@ -5,8 +5,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// Names at the beginning of an instruction.

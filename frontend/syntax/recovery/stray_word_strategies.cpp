@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 namespace {
 
 /// Base of the strategies for stray words.

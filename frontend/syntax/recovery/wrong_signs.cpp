@@ -7,8 +7,6 @@
 
 namespace rapid::syntax {
 
-using diag::Code;
-
 void WrongSigns::reportEqual() {
     const bool turned = peek() == K::Colon && range(pos()).end == range(pos() + 1).begin;
     const SourceRange sign{range(pos()).begin, range(turned ? pos() + 1 : pos()).end};

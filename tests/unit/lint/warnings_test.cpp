@@ -10,7 +10,7 @@
 #include <set>
 
 using namespace rapid;
-using diag::Code;
+namespace say = diag::say;
 using lint::Level;
 using Codes = std::vector<std::string>;
 

@@ -59,7 +59,7 @@ TEST_CASE("every code of the catalogue is explained", "[diag][gate]") {
 TEST_CASE("every code of the catalogue is caused by a test", "[diag][gate]") {
     // Programs with annotations, command lines, or unit tests for what no single file can cause.
     static const std::regex number(R"(\bRAP(\d{4})\b)");
-    static const std::regex name(R"(\bCode::(\w+))");
+    static const std::regex name(R"(\bsay::(\w+))");
     std::set<std::string> numbers, names;
     forEachFile(kRoot / "tests", {".modx", ".sysx", ".mod", ".sys", ".test", ".cpp", ".err"},
                 [&](const fs::path&, const std::string& text) {

@@ -15,7 +15,7 @@
 #include <set>
 
 using namespace rapid;
-using diag::Code;
+namespace say = diag::say;
 
 namespace {
 

@@ -9,6 +9,7 @@ namespace {
 
 using namespace rapid;
 using diag::Code;
+namespace say = diag::say;
 
 std::vector<Code> codesOf(const std::string& path, const std::string& text) {
     diag::Sink sink;
