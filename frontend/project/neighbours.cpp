@@ -19,6 +19,7 @@ namespace rapid::project {
 
 namespace fs = std::filesystem;
 using diag::Code;
+namespace say = diag::say;
 using diag::Diagnostic;
 
 namespace {
