@@ -176,10 +176,10 @@ std::string parameterDocumentation(const Snapshot& snapshot, const DataSymbol& p
             const std::string_view rest = trimmed(line.substr(6));
             inside = foldName(rest.substr(0, rest.find(' '))) == wanted;
             if (inside && rest.size() > wanted.size()) found = trimmed(rest.substr(wanted.size()));
-        } else if (inside && line.starts_with(' ')) {
-            found += " " + std::string(trimmed(line));
-        } else {
+        } else if (line.empty() || line.starts_with('@')) {
             inside = false;
+        } else if (inside) { // continues the line before
+            found += " " + std::string(trimmed(line));
         }
     }
     return found;

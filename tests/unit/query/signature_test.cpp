@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace rapid;
 using namespace rapid::query;
 using namespace rapid::query::testing;
@@ -73,4 +75,15 @@ TEST_CASE("query: documentation of the signature and its parameters", "[query][s
     REQUIRE(help);
     CHECK(help->documentation.find("Moves quickly") == 0);
     CHECK(help->parameters.at(0).documentation == "execution continues while the robot moves");
+}
+
+TEST_CASE("query: documentation of a parameter over two lines", "[query][signature]") {
+    const Program program({inMain("SearchL $1")});
+    const auto help = signatureHelpAt(program.snapshot(), program.file(), program.offset());
+    REQUIRE(help);
+    const auto load = std::find_if(help->parameters.begin(), help->parameters.end(), [](const auto& one) {
+        return one.documentation.starts_with("total load of tool and payload");
+    });
+    REQUIRE(load != help->parameters.end());
+    CHECK(load->documentation.ends_with("load0 means no change"));
 }
