@@ -226,7 +226,8 @@ class MotionDriver final : public SteppedArm {
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
     bool isBackward() const { return backward_; }
-    MovingTogether together() const override;
+    std::vector<Task*> tasksTogether() const override;
+    const std::vector<TogetherChange>& togetherChange() const override { return togetherChange_; }
     /// The task executes backwards a movement that it cannot make together with other tasks: it is to return kAgain.
     bool refusesBackward(Task& task) const;
 
@@ -277,6 +278,7 @@ class MotionDriver final : public SteppedArm {
     void refreshAlone();
     void holdOrRelease(motion::StopKind kind);
     Status waitReleased(Task& task, motion::MoveId id);
+    void noteTogetherChange(const Task& task);
     motion::Pose startOf(const motion::MoveCommand& command) const;
     /// `task` null: the place of the movement in the program is not known.
     void enqueued(motion::MoveId id, const motion::MoveCommand& command, const motion::Pose& start,
@@ -323,6 +325,7 @@ class MotionDriver final : public SteppedArm {
     Time nextSample_ = 0;
     Time tick_ = 4 * kMillisecond; // TraceSink::kPeriod
     std::shared_ptr<SynchronisedGroup> synchronised_;
+    std::vector<TogetherChange> togetherChange_;
     bool isSuspended_ = false;
     StopFlags stopMove_;
     bool programStop_ = false;

@@ -102,7 +102,6 @@ void SynchronisedGroup::orderStep() {
     std::erase_if(given_, [&](const auto& given) {
         return std::find(orders.begin(), orders.end(), given.second) != orders.end();
     });
-    if (!firstIdent_) firstIdent_ = commands.front().ident;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         orders[i]->id = (*ordered)[i];
         orders[i]->isDone = true;
