@@ -209,8 +209,8 @@ class Debugger final : public StepHook {
     std::string startBackward(Task& task, State& state, Frame* at);
     /// Writes the reason to the event log, and returns it.
     std::string refusedBackward(const Task& task, std::string problem);
-    /// Why the last movement cannot be taken back because of SyncMoveOn or SyncMoveOff; "" when it can.
-    std::string refusalOfSync(const Task& task);
+    /// Why the statements from `first` to before `end` cannot be passed backwards because of SyncMoveOn or SyncMoveOff; "" when they can.
+    std::string refusalOfSync(const Task& task, const Frame& at, int32_t first, int32_t end);
     // debugger_together.cpp
     /// The tasks that move together with this one, itself included; none when it moves for itself.
     std::vector<Task*> tasksTogether(const Task& task);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -34,6 +35,17 @@ int32_t statementAfter(const RoutineDesc& routine, int32_t statement) {
         if (routine.statements[s].canStart != 0 && routine.statements[s].previous == statement)
             return static_cast<int32_t>(s);
     return -1;
+}
+
+/// After all rows of the statement and of those nested in it.
+int32_t endOfStatement(const RoutineDesc& routine, int32_t statement) {
+    const int32_t after = statementAfter(routine, statement);
+    return after >= 0 ? after : static_cast<int32_t>(routine.statementCount);
+}
+
+bool hasBackwardInstructions(const RoutineDesc& routine) {
+    return std::any_of(routine.statements, routine.statements + routine.statementCount,
+                       [](const StmtDesc& statement) { return (statement.flags & kStmtInBackward) != 0; });
 }
 
 constexpr const char* kTop =
@@ -94,17 +106,22 @@ bool Debugger::continuesBackward(Task& task) {
     return runBackward(task).empty();
 }
 
-std::string Debugger::refusalOfSync(const Task& task) {
+std::string Debugger::refusalOfSync(const Task& task, const Frame& at, int32_t first, int32_t end) {
     if (!task.isMotionTask()) return "";
-    const MotionPointer& pointer = host_.arm(task).pointer();
-    const MovingTogether together = host_.arm(task).together();
-    if (!together.tasks.empty() && (!together.first || pointer.command.ident == *together.first))
-        return "SyncMoveOn cannot be passed backwards: move the program pointer";
-    if (!together.tasks.empty() || pointer.command.ident == motion::kNoIdent) return "";
-    int arms = 0;
-    host_.forEachArm([&arms](SteppedArm&) { ++arms; });
-    if (arms == 1) return ""; // \ID has no meaning
-    return "SyncMoveOff and SyncMoveUndo cannot be passed backwards: move the program pointer";
+    SteppedArm& arm = host_.arm(task);
+    const bool isOn = !arm.tasksTogether().empty();
+    for (const TogetherChange& change : arm.togetherChange()) {
+        if (change.frame != &at || change.routine != at.routine) continue;
+        if (change.statement < first || change.statement >= end) return "";
+        if (change.callee == nullptr)
+            return isOn ? "SyncMoveOn cannot be passed backwards: move the program pointer"
+                        : "SyncMoveOff and SyncMoveUndo cannot be passed backwards: move the program pointer";
+        if (change.statement == first && hasBackwardInstructions(*change.callee)) return "";
+        return fmt::format("the procedure called in line {} executed {}, which cannot be passed backwards: "
+                           "move the program pointer",
+                           row(at, change.statement).line, isOn ? "SyncMoveOn" : "SyncMoveOff");
+    }
+    return "";
 }
 
 Debugger::BackwardPlan Debugger::planBackward(Task& task, const State& state, Frame* at) {
@@ -119,10 +136,17 @@ Debugger::BackwardPlan Debugger::planBackward(Task& task, const State& state, Fr
     }
     if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
         return refused("instructions of a handler cannot be executed backwards");
-    if (std::string problem = refusalOfSync(task); !problem.empty()) return refused(std::move(problem));
+    // The statements that the step passes: up to the motion pointer's, later the program pointer's.
+    int32_t first = at->statement;
+    int32_t end = first;
+    if (state.backwardLast)
+        end = endOfStatement(*at->routine, first);
+    else if (const int32_t movement = lastMovement(host_.arm(task).pointer(), *at); movement >= 0)
+        first = movement;
+    if (std::string problem = refusalOfSync(task, *at, first, end); !problem.empty())
+        return refused(std::move(problem));
     if (!state.backwardLast) {
-        const int32_t movement = lastMovement(host_.arm(task).pointer(), *at);
-        plan.statement = row(*at, movement >= 0 ? movement : at->statement).previous;
+        plan.statement = row(*at, first).previous;
         return plan.statement < 0 ? refused(kTop) : plan;
     }
     if (state.backwardTop) return refused(kTop);

@@ -14,7 +14,7 @@ namespace rt {
 
 std::vector<Task*> Debugger::tasksTogether(const Task& task) {
     if (!task.isMotionTask()) return {};
-    std::vector<Task*> all = host_.arm(task).together().tasks;
+    std::vector<Task*> all = host_.arm(task).tasksTogether();
     const bool takesPart = std::find(all.begin(), all.end(), &task) != all.end();
     return takesPart && all.size() > 1 ? all : std::vector<Task*>();
 }

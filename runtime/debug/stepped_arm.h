@@ -6,7 +6,6 @@
 #include "runtime/motion/stop_kind.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace rt {
@@ -22,10 +21,12 @@ struct MotionPointer {
     motion::MoveCommand command;
 };
 
-/// Robots between SyncMoveOn and SyncMoveOff.
-struct MovingTogether {
-    std::vector<Task*> tasks;     ///< none: the robot moves for itself
-    std::optional<int64_t> first; ///< \ID of their first movement; none: they have not made one
+/// A statement in progress when robots began or ceased to move together: the instruction itself, or a call that led to it.
+struct TogetherChange {
+    const Frame* frame = nullptr;
+    const RoutineDesc* routine = nullptr;
+    int32_t statement = -1;
+    const RoutineDesc* callee = nullptr; ///< null: the instruction itself
 };
 
 /// The arm of a program that is stepped.
@@ -40,7 +41,10 @@ class SteppedArm {
     virtual const MotionPointer& pointer() const = 0;
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     virtual void setBackward(bool backward) = 0;
-    virtual MovingTogether together() const = 0;
+    /// The tasks between SyncMoveOn and SyncMoveOff; none: the robot moves for itself.
+    virtual std::vector<Task*> tasksTogether() const = 0;
+    /// The statements in progress at the latest SyncMoveOn, SyncMoveOff or SyncMoveUndo, innermost first.
+    virtual const std::vector<TogetherChange>& togetherChange() const = 0;
 
   protected:
     ~SteppedArm() = default;

@@ -66,10 +66,7 @@ void MotionDriver::storeEarlier(const EarlierLevel& level) {
     earlier_ = {};
     earlier_.begun = level.begun;
     earlier_.place = level.place;
-    EarlierPath path;
-    path.moves = level.moves;
-    path.place = level.place;
-    orderEarlier(orderEarlierUnderWay(path));
+    orderRest(level.moves, false);
     system_.storePath();
     system_.placeAt(here);
     levels_.push_back({level.stopMove, {}, level.left, level.isSuspended, level.place});
@@ -80,26 +77,26 @@ void MotionDriver::continuePath(const EarlierPath& path) {
         storeEarlier(level);
     earlier_ = path;
     earlier_.awaited.reset();
-    orderEarlier(orderEarlierUnderWay(path));
+    orderRest(path.moves, path.awaited.has_value());
     holdEarlier(path);
 }
 
-/// Orders the move that the arm has covered a part of; of a zone both moves. The moves that are left to be ordered: none while
-/// the first one belongs to the instruction that the program executes again.
-std::vector<motion::MoveCommand> MotionDriver::orderEarlierUnderWay(const EarlierPath& path) {
-    if (!path.place) return path.moves;
-    const std::size_t first = path.place->before && !path.place->isPassed ? 1 : 0;
-    if (path.moves.size() <= first) {
-        if (path.awaited) return {};
+/// Orders what is left, the move that the arm has covered a part of first; of a zone both moves. Nothing while that one belongs to
+/// the instruction that the program executes again (`hasAwaited`).
+void MotionDriver::orderRest(std::vector<motion::MoveCommand> moves, bool hasAwaited) {
+    const std::size_t first = earlier_.place && earlier_.place->before && !earlier_.place->isPassed ? 1 : 0;
+    if (moves.size() <= first) {
+        if (earlier_.place && hasAwaited) return;
         earlier_.place.reset();
-        return path.moves;
     }
-    motion::MoveCommand command = path.moves[first];
-    Beginning beginning;
-    const auto id = orderUnderWay(command, beginning);
-    if (!id) return path.moves;
-    noteOrdered(nullptr, command, *id, beginning);
-    return {path.moves.begin() + static_cast<std::ptrdiff_t>(first) + 1, path.moves.end()};
+    if (earlier_.place) {
+        motion::MoveCommand& command = moves[first];
+        Beginning beginning;
+        const auto id = orderUnderWay(command, beginning);
+        if (id) noteOrdered(nullptr, command, *id, beginning);
+        moves.erase(moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(first + (id ? 1 : 0)));
+    }
+    orderEarlier(moves);
 }
 
 /// Nothing when no move is left to be taken over, or when the arm is elsewhere: then the rest is ordered from where it is.

@@ -48,17 +48,39 @@ bool areAlike(const Places& places, std::size_t robots) {
 
 } // namespace
 
+motion::Expected<std::vector<motion::MoveId>, motion::MotionSystem::TogetherError>
+MotionDriver::orderTogether(const SynchronisedGroup& group, const std::vector<const Task*>& tasks,
+                            std::vector<motion::MoveCommand>& commands) {
+    const auto systems = group.systems();
+    using Ids = std::vector<motion::MoveId>;
+    if (!motion::MotionSystem::areTogether(systems) && !motion::MotionSystem::beginTogether(systems))
+        return Ids();
+    const auto& members = group.members();
+    std::vector<Beginning> beginnings;
+    for (std::size_t i = 0; i < members.size(); ++i)
+        beginnings.push_back(members[i].driver->beginOrder(tasks[i], commands[i]));
+    const auto underWay = continueUnderWay(group, tasks, commands, beginnings);
+    motion::Expected<Ids, motion::MotionSystem::TogetherError> ordered =
+        underWay ? *underWay : motion::MotionSystem::enqueueTogether(systems, commands);
+    for (std::size_t i = 0; i < members.size() && ordered; ++i)
+        members[i].driver->noteOrdered(tasks[i], commands[i], (*ordered)[i], beginnings[i]);
+    return ordered;
+}
+
+/// The robots, about to make these movements, continue on the path that an earlier process left; nothing when it did not, or when
+/// they are elsewhere: then what is left before these movements has been ordered.
 std::optional<std::vector<motion::MoveId>>
-MotionDriver::continueUnderWay(const SynchronisedGroup& group, std::vector<motion::MoveCommand>& commands,
+MotionDriver::continueUnderWay(const SynchronisedGroup& group, const std::vector<const Task*>& tasks,
+                               std::vector<motion::MoveCommand>& commands,
                                std::vector<Beginning>& beginnings) {
     const auto& members = group.members();
     Places places;
     for (const SynchronisedGroup::Member& member : members)
         if (auto place = std::exchange(member.driver->earlier_.place, {})) places.push_back(*place);
     if (places.empty()) return {};
-    const auto systems = group.systems();
+    const bool areAll = areAlike(places, members.size());
     std::optional<std::vector<motion::MotionSystem::OrderedUnderWay>> ordered;
-    if (areAlike(places, members.size())) {
+    if (areAll) {
         std::vector<motion::MotionSystem::UnderWay> orders;
         for (std::size_t i = 0; i < members.size(); ++i) {
             const uint64_t latest = members[i].driver->instructions_;
@@ -66,7 +88,16 @@ MotionDriver::continueUnderWay(const SynchronisedGroup& group, std::vector<motio
             commands[i].tag = latest + (places[i].before ? 2 : 1);
             orders.push_back({places[i].from, places[i].before, commands[i]});
         }
-        ordered = motion::MotionSystem::enqueueTogetherUnderWay(systems, orders, places.front().covered);
+        ordered =
+            motion::MotionSystem::enqueueTogetherUnderWay(group.systems(), orders, places.front().covered);
+    }
+    if (!ordered && areAll && places.front().before && !places.front().isPassed) {
+        std::vector<motion::MoveCommand> before;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            before.push_back(*places[i].before);
+            members[i].driver->continueEarlier(before.back());
+        }
+        (void)orderTogether(group, std::vector<const Task*>(members.size()), before);
     }
     std::vector<motion::MoveId> ids;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -77,8 +108,7 @@ MotionDriver::continueUnderWay(const SynchronisedGroup& group, std::vector<motio
             continue;
         }
         driver.continueEarlier(commands[i]); // from where the arm is
-        commands[i].tag = driver.instructions_ + 1;
-        beginnings[i] = {driver.startOf(commands[i]), driver.system_.plannedEnd()};
+        beginnings[i] = driver.beginOrder(tasks[i], commands[i]);
     }
     if (!ordered) return {};
     return ids;
@@ -96,22 +126,20 @@ void MotionDriver::orderEarlierTogether(SynchronisedGroup& group, const std::vec
             if (common.count(move.ident) != 0) moves.push_back(move);
         complete = std::min(complete, moves.size());
     }
-    const std::size_t first = orderTogetherUnderWay(group, orders, left, complete);
-    const auto systems = group.systems();
-    const bool areTogether = first < complete && (motion::MotionSystem::areTogether(systems) ||
-                                                  motion::MotionSystem::beginTogether(systems));
-    for (std::size_t k = first; k < complete && areTogether; ++k) {
+    // In a zone the movement before it is ordered with the one after it.
+    const auto& place = orders.front().driver->earlier_.place;
+    const auto& moves = left.front();
+    const bool hasBefore =
+        place && place->before && !moves.empty() && moves.front().ident == place->before->ident;
+    const std::size_t first = hasBefore ? 1 : 0;
+    for (std::size_t k = first; k < complete; ++k) {
         std::vector<motion::MoveCommand> commands;
-        std::vector<Beginning> beginnings;
         for (std::size_t i = 0; i < orders.size(); ++i) {
             orders[i].driver->continueEarlier(left[i][k]);
-            beginnings.push_back(orders[i].driver->beginOrder(nullptr, left[i][k]));
             commands.push_back(left[i][k]);
         }
-        const auto ids = motion::MotionSystem::enqueueTogether(systems, commands);
-        if (!ids) return; // the arms are elsewhere: the program orders what comes next
-        for (std::size_t i = 0; i < orders.size(); ++i)
-            orders[i].driver->noteOrdered(nullptr, commands[i], (*ids)[i], beginnings[i]);
+        const auto ids = orderTogether(group, std::vector<const Task*>(orders.size()), commands);
+        if (!ids || ids->empty()) return; // the program orders what comes next
     }
     for (std::size_t i = 0; i < orders.size(); ++i) {
         for (std::size_t k = std::max(first, complete); k < left[i].size(); ++k) {
@@ -119,31 +147,6 @@ void MotionDriver::orderEarlierTogether(SynchronisedGroup& group, const std::vec
             group.expect(*orders[i].driver, left[i][k]);
         }
     }
-}
-
-/// Orders the movement that the arms have covered a part of; of a zone both movements. The number of movements that are taken over
-/// by that: all of these robots have them. The first one that a robot orders again waits for that.
-std::size_t MotionDriver::orderTogetherUnderWay(SynchronisedGroup& group,
-                                                const std::vector<EarlierOrders>& orders,
-                                                std::vector<std::vector<motion::MoveCommand>>& left,
-                                                std::size_t complete) {
-    const auto& place = orders.front().driver->earlier_.place;
-    if (!place) return 0;
-    const auto& moves = left.front();
-    const bool hasBefore = place->before && !moves.empty() && moves.front().ident == place->before->ident;
-    const std::size_t number = hasBefore ? 1 : 0;
-    if (complete <= number) return number;
-    std::vector<motion::MoveCommand> commands;
-    std::vector<Beginning> beginnings;
-    for (std::size_t i = 0; i < orders.size(); ++i) {
-        beginnings.push_back(orders[i].driver->beginOrder(nullptr, left[i][number]));
-        commands.push_back(left[i][number]);
-    }
-    const auto ids = continueUnderWay(group, commands, beginnings);
-    if (!ids) return 0;
-    for (std::size_t i = 0; i < orders.size(); ++i)
-        orders[i].driver->noteOrdered(nullptr, commands[i], (*ids)[i], beginnings[i]);
-    return number + 1;
 }
 
 void MotionDriver::continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths) {
@@ -187,7 +190,7 @@ void MotionDriver::finishEarlierLevel(const EarlierPath& path, std::size_t numbe
         if (!isOrdered) {
             earlier_.begun = path.begun;
             earlier_.place = path.place;
-            orderEarlier(orderEarlierUnderWay(path));
+            orderRest(path.moves, path.awaited.has_value());
         }
         return holdEarlier(path);
     }

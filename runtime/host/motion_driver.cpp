@@ -37,6 +37,14 @@ MotionPointer pointerOf(const Task& task, const motion::MoveCommand& command) {
     return pointer;
 }
 
+/// The task of a member.
+const Task& taskIn(const SynchronisedGroup& group, const MotionDriver& driver) {
+    const auto& members = group.members();
+    return *std::find_if(members.begin(), members.end(), [&](const auto& member) {
+                return member.driver == &driver;
+            })->task;
+}
+
 /// To the target of `target`, as the movement `as` was made (manual 1.21).
 motion::MoveCommand reversed(const motion::MoveCommand& target, const motion::MoveCommand& as) {
     motion::MoveCommand result = target;
@@ -299,6 +307,8 @@ Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, mot
     SynchronisedGroup::Order order;
     order.task = &task;
     order.command = std::move(command);
+    // After --state: the calls in which an earlier process executed SyncMoveOn are not known.
+    if (togetherChange_.empty()) noteTogetherChange(task);
     if (const std::string problem = group->give(*this, order); !problem.empty()) {
         if (refusesBackward(task)) return kAgain;
         return task.fatal(static_cast<int>(EventId::SyncMisused), problem);
@@ -329,6 +339,7 @@ Status MotionDriver::submitTogether(Task& task, motion::MoveCommand command, mot
 void MotionDriver::joinGroup(std::shared_ptr<SynchronisedGroup> synchronised) {
     synchronised_ = std::move(synchronised);
     isSuspended_ = false;
+    noteTogetherChange(taskIn(*synchronised_, *this));
 }
 
 void MotionDriver::suspendGroup(bool suspended) {
@@ -337,6 +348,7 @@ void MotionDriver::suspendGroup(bool suspended) {
 }
 
 void MotionDriver::leaveGroup() {
+    if (synchronised_ != nullptr) noteTogetherChange(taskIn(*synchronised_, *this));
     synchronised_ = nullptr;
     isSuspended_ = false;
     refreshAlone();
@@ -351,13 +363,21 @@ bool MotionDriver::refusesBackward(Task& task) const {
     return backward_ && task.stepHook() != nullptr && task.stepHook()->refuseBackward(task);
 }
 
-MovingTogether MotionDriver::together() const {
-    MovingTogether together;
-    if (synchronised() == nullptr) return together;
+std::vector<Task*> MotionDriver::tasksTogether() const {
+    std::vector<Task*> tasks;
+    if (synchronised() == nullptr) return tasks;
     for (const SynchronisedGroup::Member& member : synchronised_->members())
-        together.tasks.push_back(member.task);
-    together.first = synchronised_->firstIdent();
-    return together;
+        tasks.push_back(member.task);
+    return tasks;
+}
+
+void MotionDriver::noteTogetherChange(const Task& task) {
+    togetherChange_.clear();
+    const RoutineDesc* callee = nullptr;
+    for (const Frame* frame = frameOf(task); frame != nullptr; frame = frame->caller) {
+        togetherChange_.push_back({frame, frame->routine, frame->statement, callee});
+        callee = frame->routine;
+    }
 }
 
 void MotionDriver::setSpeedLimits(const motion::SpeedLimits& most) {
@@ -501,6 +521,7 @@ void MotionDriver::breakOff(BreakOff how) {
 
 void MotionDriver::clearPath() {
     if (const auto group = synchronised_) group->end();
+    togetherChange_.clear();
     levels_.clear();
     lostIndependentAxis_ = false;
     stopMove_ = {}; // nothing is left that it could hold

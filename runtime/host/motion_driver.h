@@ -92,16 +92,6 @@ class MotionDriver final : public SteppedArm {
     /// SyncMoveSuspend, SyncMoveResume.
     void suspendGroup(bool suspended);
     bool isSuspended() const { return isSuspended_; }
-    /// The beginning of the movement that is being ordered.
-    struct Beginning {
-        motion::Pose pose;
-        motion::JointTarget joints;
-    };
-    /// Around each order of a movement: what is known before, and what has to be noted after it.
-    Beginning beginOrder(const Task* task, motion::MoveCommand& command);
-    /// `task` null: an earlier process ordered it.
-    void noteOrdered(const Task* task, const motion::MoveCommand& command, motion::MoveId id,
-                     const Beginning& beginning);
     /// Called between the two parts of a circle that is stepped forward: stops the task there.
     void setCirclePointStop(std::function<Status(Task&)> stop) { circlePointStop_ = std::move(stop); }
     Status waitDone(Task& task, motion::MoveId id);
@@ -203,11 +193,12 @@ class MotionDriver final : public SteppedArm {
     /// The same for the robots of a SynchronisedGroup (joinGroup), in its order: movements they had ordered together they continue
     /// together.
     static void continueTogether(SynchronisedGroup& group, std::vector<EarlierPath> paths);
-    /// The robots of the group, about to make these movements, continue on the path that an earlier process left; nothing when
-    /// it did not, or when they cannot.
-    static std::optional<std::vector<motion::MoveId>>
-    continueUnderWay(const SynchronisedGroup& group, std::vector<motion::MoveCommand>& commands,
-                     std::vector<Beginning>& beginnings);
+    /// Orders a movement for each robot of the group, in its order; of one that they are on already, the rest. `tasks`: null for
+    /// movements that an earlier process ordered. The commands are those that were ordered. No movements, and nothing has happened, when
+    /// a robot that has left the common path moves.
+    static motion::Expected<std::vector<motion::MoveId>, motion::MotionSystem::TogetherError>
+    orderTogether(const SynchronisedGroup& group, const std::vector<const Task*>& tasks,
+                  std::vector<motion::MoveCommand>& commands);
     /// An axis was in independent mode at a power failure, so that the program cannot continue where it was (manual 2.2.4).
     bool hasLostIndependentAxis() const { return lostIndependentAxis_; }
     /// ProcerrRecovery: the arm stops on its path, and the movement instruction that waits, else the next one, raises
@@ -226,7 +217,8 @@ class MotionDriver final : public SteppedArm {
     /// Movements are executed backwards from now on: to their target, with type and speed of the motion pointer's.
     void setBackward(bool backward) override { backward_ = backward; }
     bool isBackward() const { return backward_; }
-    MovingTogether together() const override;
+    std::vector<Task*> tasksTogether() const override;
+    const std::vector<TogetherChange>& togetherChange() const override { return togetherChange_; }
     /// The task executes backwards a movement that it cannot make together with other tasks: it is to return kAgain.
     bool refusesBackward(Task& task) const;
 
@@ -266,6 +258,16 @@ class MotionDriver final : public SteppedArm {
         motion::MoveId move = 0; ///< 0: not ordered yet
         bool fired = false;
     };
+    /// The beginning of the movement that is being ordered.
+    struct Beginning {
+        motion::Pose pose;
+        motion::JointTarget joints;
+    };
+    /// Around each order of a movement: what is known before, and what has to be noted after it.
+    Beginning beginOrder(const Task* task, motion::MoveCommand& command);
+    /// `task` null: an earlier process ordered it.
+    void noteOrdered(const Task* task, const motion::MoveCommand& command, motion::MoveId id,
+                     const Beginning& beginning);
     Status orderParts(Task& task, motion::MoveCommand command, const MotionPointer& pointer,
                       motion::MoveId& id, std::optional<motion::MotionError>& error);
     void addActions(motion::MoveCommand& command, std::vector<PathAction> actions);
@@ -276,6 +278,7 @@ class MotionDriver final : public SteppedArm {
                           std::optional<motion::MotionError>& error);
     void refreshAlone();
     void holdOrRelease(motion::StopKind kind);
+    void noteTogetherChange(const Task& task);
     Status waitReleased(Task& task, motion::MoveId id);
     motion::Pose startOf(const motion::MoveCommand& command) const;
     /// `task` null: the place of the movement in the program is not known.
@@ -284,7 +287,7 @@ class MotionDriver final : public SteppedArm {
     /// The movement that an earlier process waited for; of a circle that it had begun the rest.
     void continueEarlier(motion::MoveCommand& command);
     void orderEarlier(const std::vector<motion::MoveCommand>& moves);
-    std::vector<motion::MoveCommand> orderEarlierUnderWay(const EarlierPath& path);
+    void orderRest(std::vector<motion::MoveCommand> moves, bool hasAwaited);
     std::optional<motion::MoveId> orderUnderWay(motion::MoveCommand& command, Beginning& beginning);
     std::optional<EarlierPlace> placeLeft();
     Beginning takeUnderWay(const EarlierPlace& place, const motion::MotionSystem::OrderedUnderWay& ordered,
@@ -293,10 +296,9 @@ class MotionDriver final : public SteppedArm {
     void holdEarlier(const EarlierPath& path);
     struct EarlierOrders;
     static void orderEarlierTogether(SynchronisedGroup& group, const std::vector<EarlierOrders>& orders);
-    static std::size_t orderTogetherUnderWay(SynchronisedGroup& group,
-                                             const std::vector<EarlierOrders>& orders,
-                                             std::vector<std::vector<motion::MoveCommand>>& left,
-                                             std::size_t complete);
+    static std::optional<std::vector<motion::MoveId>>
+    continueUnderWay(const SynchronisedGroup& group, const std::vector<const Task*>& tasks,
+                     std::vector<motion::MoveCommand>& commands, std::vector<Beginning>& beginnings);
     void finishEarlierLevel(const EarlierPath& path, std::size_t number, bool isOrdered,
                             const motion::JointTarget& here);
     Status takeProcessError(Task& task);
@@ -323,6 +325,7 @@ class MotionDriver final : public SteppedArm {
     Time nextSample_ = 0;
     Time tick_ = 4 * kMillisecond; // TraceSink::kPeriod
     std::shared_ptr<SynchronisedGroup> synchronised_;
+    std::vector<TogetherChange> togetherChange_;
     bool isSuspended_ = false;
     StopFlags stopMove_;
     bool programStop_ = false;

@@ -75,22 +75,18 @@ bool SynchronisedGroup::isReady() const {
 }
 
 void SynchronisedGroup::orderStep() {
-    const auto all = systems();
-    if (!motion::MotionSystem::areTogether(all) && !motion::MotionSystem::beginTogether(all)) return;
     std::vector<Order*> orders;
+    std::vector<const Task*> tasks;
     std::vector<motion::MoveCommand> commands;
-    std::vector<MotionDriver::Beginning> beginnings;
     for (const Member& member : members_) {
         orders.push_back(firstOf(member.driver));
-        beginnings.push_back(member.driver->beginOrder(orders.back()->task, orders.back()->command));
+        tasks.push_back(orders.back()->task);
         commands.push_back(orders.back()->command);
     }
-    const auto underWay = MotionDriver::continueUnderWay(*this, commands, beginnings);
+    const auto ordered = MotionDriver::orderTogether(*this, tasks, commands);
+    if (ordered && ordered->empty()) return;
     for (std::size_t i = 0; i < members_.size(); ++i)
         orders[i]->command = commands[i];
-    using Ordered = motion::Expected<std::vector<motion::MoveId>, motion::MotionSystem::TogetherError>;
-    const Ordered ordered =
-        underWay ? Ordered(*underWay) : motion::MotionSystem::enqueueTogether(all, commands);
     if (!ordered) {
         Order& refused = *orders[ordered.error().command];
         refused.error = ordered.error().error;
@@ -102,11 +98,9 @@ void SynchronisedGroup::orderStep() {
     std::erase_if(given_, [&](const auto& given) {
         return std::find(orders.begin(), orders.end(), given.second) != orders.end();
     });
-    if (!firstIdent_) firstIdent_ = commands.front().ident;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         orders[i]->id = (*ordered)[i];
         orders[i]->isDone = true;
-        members_[i].driver->noteOrdered(orders[i]->task, orders[i]->command, orders[i]->id, beginnings[i]);
     }
     for (const Member& member : members_)
         member.driver->refresh();

@@ -44,9 +44,6 @@ class SynchronisedGroup {
     /// Orders the movement of all; isReady(). When one cannot be made, its order is done, and the others wait on.
     void orderStep();
 
-    /// \ID of the movement ordered first; none: none has been ordered.
-    std::optional<int64_t> firstIdent() const { return firstIdent_; }
-
     /// The synchronised movement is over: SyncMoveOff, SyncMoveUndo, the program pointer of one of them was moved. What is left
     /// of the movement is cleared.
     void end();
@@ -66,7 +63,6 @@ class SynchronisedGroup {
     std::vector<std::pair<MotionDriver*, Order*>> given_; ///< in order; one robot may have two (expect)
     std::deque<std::unique_ptr<Order>> earlier_;
     WaitQueue changed_;
-    std::optional<int64_t> firstIdent_;
     bool isOver_ = false;
 };
 

@@ -148,8 +148,7 @@ void Course::shift(double seconds) {
     before_ = nullptr; // nothing has been executed
 }
 
-double Course::slowBy(double factor) {
-    double fastest = 0;
+void Course::slowBy(double factor) {
     const double begin = knots_.front().t;
     for (Knot& knot : knots_) {
         knot.t = begin + factor * (knot.t - begin);
@@ -157,9 +156,7 @@ double Course::slowBy(double factor) {
         knot.a /= factor * factor;
         knot.change.perSecond /= factor * factor * factor;
         knot.change.perMm /= factor * factor;
-        fastest = std::max(fastest, knot.v);
     }
-    return fastest;
 }
 
 void Course::forgetBefore(double time) {

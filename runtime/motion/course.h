@@ -50,8 +50,8 @@ class Course {
     bool isQuick() const { return longWindow_ == 0 && !isExact(); } ///< it has been dropped
     /// Shifts the whole course in time by that many seconds.
     void shift(double seconds);
-    /// Makes the whole exact plan take that many times as long; its highest speed then, mm/s.
-    double slowBy(double factor);
+    /// Makes the whole exact plan take that many times as long.
+    void slowBy(double factor);
     /// Forgets what no question about `time` or later needs.
     void forgetBefore(double time);
 

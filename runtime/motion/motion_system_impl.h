@@ -129,6 +129,13 @@ struct MotionSystem::Impl {
     std::optional<PathPlace> placeAfter(double covered, std::size_t moves) const;
     void beginUnderWay(const std::vector<std::pair<MoveCommand, Trajectory::Appended>>& appended,
                        OrderedUnderWay& ordered);
+    /// The beginning of the path of a robot: its axes, and the frames of its first movement.
+    struct PathStart {
+        JointTarget axes;
+        FrameSetup frames;
+    };
+    static std::vector<std::shared_ptr<Trajectory>> pathsTogether(const std::vector<MotionSystem*>& systems,
+                                                                  const std::vector<PathStart>& starts);
     static bool standTogether(const std::vector<MotionSystem*>& systems, const std::vector<JointTarget>& here,
                               std::size_t moves, double covered);
     static Expected<std::vector<Trajectory::Ordered>, TogetherError>

@@ -31,20 +31,34 @@ bool MotionSystem::beginTogether(const std::vector<MotionSystem*>& systems) {
         return system->impl_->isResting();
     });
     if (!areResting || systems.empty()) return false;
-    Impl& first = *systems.front()->impl_;
-    const std::shared_ptr<Trajectory> leader = first.newPath(first.standing(), first.seconds());
-    for (std::size_t i = 1; i < systems.size(); ++i) {
-        Impl& s = *systems[i]->impl_;
-        const FrameSetup frames = s.path().isEmpty() ? s.based({}) : s.path().framesAt(s.path().end());
-        auto path =
-            std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, s.standing(), frames);
-        leader->addCompanion(path);
-        s.beginPath(std::move(path));
+    std::vector<Impl::PathStart> starts;
+    for (const MotionSystem* system : systems) {
+        const Impl& s = *system->impl_;
+        starts.push_back(
+            {s.standing(), s.path().isEmpty() ? s.based({}) : s.path().framesAt(s.path().end())});
     }
-    first.beginPath(leader);
+    const auto paths = Impl::pathsTogether(systems, starts);
+    for (std::size_t i = 0; i < systems.size(); ++i)
+        systems[i]->impl_->beginPath(paths[i]);
     for (MotionSystem* system : systems)
         system->impl_->holdOrRelease();
     return true;
+}
+
+/// The first path leads, the others follow it.
+std::vector<std::shared_ptr<Trajectory>>
+MotionSystem::Impl::pathsTogether(const std::vector<MotionSystem*>& systems,
+                                  const std::vector<PathStart>& starts) {
+    const Impl& first = *systems.front()->impl_;
+    const std::shared_ptr<Trajectory> leader = first.newPath(starts.front().axes, first.seconds());
+    std::vector<std::shared_ptr<Trajectory>> paths{leader};
+    for (std::size_t i = 1; i < systems.size(); ++i) {
+        const Impl& s = *systems[i]->impl_;
+        paths.push_back(std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, starts[i].axes,
+                                                   starts[i].frames));
+        leader->addCompanion(paths.back());
+    }
+    return paths;
 }
 
 void MotionSystem::endTogether(const std::vector<MotionSystem*>& systems) {

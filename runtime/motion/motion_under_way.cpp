@@ -130,23 +130,18 @@ MotionSystem::enqueueTogetherUnderWay(const std::vector<MotionSystem*>& systems,
     if (!std::all_of(systems.begin(), systems.end(), isReady)) return {};
     Impl& first = *systems.front()->impl_;
     const double now = first.seconds();
-    const auto leader = first.newPath(orders.front().from, now);
-    std::vector<std::shared_ptr<Trajectory>> replaced;
+    std::vector<Impl::PathStart> starts;
     std::vector<JointTarget> here;
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+        starts.push_back({orders[i].from, systems[i]->impl_->based(orders[i].command.frames)});
+        here.push_back(systems[i]->currentJoints());
+    }
+    auto replaced = Impl::pathsTogether(systems, starts);
+    for (std::size_t i = 0; i < systems.size(); ++i)
+        std::swap(systems[i]->impl_->level.path, replaced[i]);
+    Trajectory& leader = first.path();
     std::vector<OrderedUnderWay> results(systems.size());
     std::vector<std::vector<std::pair<MoveCommand, Trajectory::Appended>>> appended(systems.size());
-    for (std::size_t i = 0; i < systems.size(); ++i) {
-        Impl& s = *systems[i]->impl_;
-        here.push_back(systems[i]->currentJoints());
-        std::shared_ptr<Trajectory> path = leader;
-        if (i > 0) {
-            const FrameSetup frames = s.based(orders[i].command.frames);
-            path = std::make_shared<Follower>(leader, i - 1, s.model, s.options.external, orders[i].from,
-                                              frames);
-            leader->addCompanion(path);
-        }
-        replaced.push_back(std::exchange(s.level.path, std::move(path)));
-    }
     const std::size_t wanted = orders.front().before ? 2 : 1;
     for (std::size_t k = 0; k < wanted; ++k) {
         std::vector<MoveCommand> commands;
@@ -156,7 +151,7 @@ MotionSystem::enqueueTogetherUnderWay(const std::vector<MotionSystem*>& systems,
         }
         const auto moves = Impl::preparedTogether(systems, commands);
         if (!moves) break;
-        const Trajectory::Appended at = leader->appendTogether(*moves, now);
+        const Trajectory::Appended at = leader.appendTogether(*moves, now);
         for (std::size_t i = 0; i < systems.size(); ++i)
             appended[i].emplace_back((*moves)[i].command, at);
     }
@@ -171,7 +166,7 @@ MotionSystem::enqueueTogetherUnderWay(const std::vector<MotionSystem*>& systems,
         s.beginUnderWay(appended[i], results[i]);
         isHeld = isHeld || s.isHeld();
     }
-    if (!isHeld) leader->release(now + TrajectoryOptions().startDelay);
+    if (!isHeld) leader.release(now + TrajectoryOptions().startDelay);
     for (MotionSystem* system : systems)
         system->impl_->noteMotion();
     return results;

@@ -125,13 +125,14 @@ bool OptimalPlan::plan(Course& course, const Route& route, double now, double ch
     return true;
 }
 
-/// At another speed the arm may have to slow down first.
+/// At another override, or under new limits of speed, the arm may have to slow down first.
 bool OptimalPlan::planFrom(Course& course, const Route& route, double time, double share) {
     const CourseState state = course.plannedAt(time);
     if (state.s >= length() - kNothing) return false;
     const double most = cells_[cellAt(state.s)].mostSquare * share * share;
-    if (state.v * state.v <= most * (1 + 1e-6) && solveFrom(course, route, time, state, share)) return true;
-    if (!(state.v > 0) || share >= share_) return false;
+    const bool isTooFast = state.v * state.v > most * (1 + 1e-6);
+    if (!isTooFast && solveFrom(course, route, time, state, share)) return true;
+    if (!(state.v > 0) || !(isTooFast || share < share_)) return false;
     for (const double part : {0.999, 0.7, 0.4, 0.2}) {
         const double way = state.v * 0.3;
         const double speed = part * std::sqrt(mostSquareAhead(state.s, way, share));
@@ -282,23 +283,9 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
     return isExceeded;
 }
 
-void OptimalPlan::slowTo(Course& course, double begin, double seconds) {
-    const double factor = seconds / (course.plannedEnd() - begin);
-    if (!(factor > 1)) return;
-    course.slowBy(factor);
-    // Also when the rest is planned again, for which the limits are those at full override.
-    double before = 0;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        const double after = course.at(course.timeAt(begins_[i] + cells_[i].width)).v / share_;
-        const double fastest = std::max(before, after);
-        cells_[i].mostSquare = std::min(cells_[i].mostSquare, fastest * fastest);
-        before = after;
-    }
-}
-
 // ---- Slowing down ----
 
-bool OptimalPlan::keepsLimits(const Slowing& slowing) const {
+bool OptimalPlan::keepsLimits(const Slowing& slowing, const Course& course) const {
     constexpr double kSpacing = 0.7; // mm between the places that are checked
     constexpr double kRounding = 1 + 1e-7;
     AxisState from = slowing.from;
@@ -313,7 +300,10 @@ bool OptimalPlan::keepsLimits(const Slowing& slowing) const {
             const ProfileCell& cell = cells_[i];
             const ProfileRows rows = rowsAt(cell, std::clamp((at.p - begins_[i]) / cell.width, 0.0, 1.0));
             const bool isFirst = piece == 0 && k == 0;
-            if (at.v * at.v > cell.mostSquare * share_ * share_ * kRounding) return false;
+            // Limits that have been lowered are exceeded for some time, but no further than before.
+            if (at.v * at.v > cell.mostSquare * share_ * share_ * kRounding &&
+                at.v > kRounding * course.plannedAt(course.plannedTimeAt(at.p)).v)
+                return false;
             for (std::size_t r = 0; r < rows.count && !isFirst; ++r)
                 if (useOf(rows.rows[r], {at.p, at.v, at.a}, jerk) > kRounding) return false;
         }
@@ -345,7 +335,7 @@ std::optional<OptimalPlan::Slowing> OptimalPlan::slowing(const Course& course, d
             candidate.ramp = rampTo(speed, candidate.from, share * acceleration, share * jerk);
             const double end = candidate.begin + candidate.ramp.duration();
             if (end >= ended) break;
-            if (!keepsLimits(candidate)) continue;
+            if (!keepsLimits(candidate, course)) continue;
             best = candidate;
             ended = end;
             break;

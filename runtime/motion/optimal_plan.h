@@ -24,8 +24,6 @@ class OptimalPlan {
     /// Replaces what the course does after `now`: to the end of the route at this share of the programmed speed. The route has
     /// changed from the place `changed` on. False when the limits cannot be kept from there: the course is unchanged then.
     bool plan(Course& course, const Route& route, double now, double changed, double share);
-    /// Makes the course, which has not begun, end that many seconds after its beginning if it would end earlier.
-    void slowTo(Course& course, double begin, double seconds);
     /// Brakes after `now` as fast as the limits allow, and rests.
     void brake(Course& course, double now) const;
     /// The place where brake() would let it rest.
@@ -46,7 +44,8 @@ class OptimalPlan {
     std::size_t cellAt(double place) const;
     std::vector<ProfileCell> pathBetween(double from, double to, double share) const;
     double mostSquareAhead(double place, double way, double share) const;
-    bool keepsLimits(const Slowing& slowing) const;
+    /// `course`: the plan before it.
+    bool keepsLimits(const Slowing& slowing, const Course& course) const;
     /// The change to this speed that ends first; nothing when none keeps the limits.
     std::optional<Slowing> slowing(const Course& course, double now, double speed) const;
     bool planFrom(Course& course, const Route& route, double time, double share);

@@ -61,6 +61,9 @@ void PathCorrections::advance(const PlannedMoment& planned) {
     if (std::exchange(wasCorrected_, isCorrected) != isCorrected) hasJumped_ = true;
     if (step.isOtherRun) hasJumped_ = true;
     const Vec3 target = isCorrected ? rotate(planned.pathFrame(), offset_) : Vec3{};
+    // A corner without room, or a way along the tool: such a path has no sides, and those that it is given may turn at once.
+    constexpr double kSharpTurn = 0.5; // of the displacement, in one period
+    if (norm(target - std::exchange(target_, target)) > kSharpTurn * norm(target)) hasJumped_ = true;
     if (std::exchange(hasJumped_, false))
         return shown_.jumpTo(planned.time, target, blendTime(shown_.now() - target, shown_.rate()));
     const double pace = planned.isMoving ? std::min(1.0, std::fabs(planned.speed) / kFullPace) : 0;

@@ -36,6 +36,7 @@ class PathCorrections final : public PathOffset {
     void otherPath(bool isNew) override;
 
     Vec3 offset_;
+    Vec3 target_; ///< the displacement of the latest period, in world, without the change in progress
     std::deque<Ahead> ahead_; ///< the next one first
     double way_ = 0;          ///< mm of path
     bool hasJumped_ = false, wasCorrected_ = false;

@@ -201,12 +201,16 @@ bool Route::isShaped(double place) const {
 void Route::addBends(const Corner& corner, double from, double to, std::vector<double>& places) const {
     constexpr double kLeastCosine = 0.98;
     constexpr double kLeastPart = 1e-4;
-    const auto cosine = [&](const auto& curve) {
-        const auto a = curve.slopeAt(from), b = curve.slopeAt(to);
-        return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+    const auto isBent = [&](const auto& curve) {
+        constexpr double kRest =
+            1e-12; // of the squares: the point of rest where the path turns back on itself
+        const auto first = curve.slopeAt(from), last = curve.slopeAt(to);
+        const double a = product(first, first), b = product(last, last);
+        return std::min(a, b) <= kRest * std::max(a, b) ||
+               product(first, last) < kLeastCosine * std::sqrt(a * b);
     };
-    const double bend = corner.kind == CornerKind::Space ? cosine(corner.space) : cosine(corner.axes);
-    if (!(bend < kLeastCosine) || to - from < kLeastPart) return;
+    const bool bends = corner.kind == CornerKind::Space ? isBent(corner.space) : isBent(corner.axes);
+    if (!bends || to - from < kLeastPart) return;
     const double middle = 0.5 * (from + to);
     addBends(corner, from, middle, places);
     places.push_back(corner.begin + corner.lengths.distanceAt(middle));

@@ -92,7 +92,6 @@ bool Run::append(Leg leg, bool isOpen, double now) {
     if (!canAppend(now)) return false;
     const bool isFirst = route_.legCount() == 0;
     if (leg.duration > 0) leg.limits.pathSpeed = leg.length() / leg.duration;
-    if (isFirst && !isOpen && optimal_) leg.limits.pathSpeed = kUnlimited; // meetDuration() slows it down
     leg.programmed.pathSpeed = leg.limits.pathSpeed;
     const double endRamp = isOpen ? 1 : std::min(1.0, leg.limits.finePointRampShare / leg.limits.rampShare);
     const auto changed = route_.append(std::move(leg), fixedPlace(now));
@@ -332,14 +331,45 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
 /// A single move with a given duration: as slow as it has to be at full override, which then acts on the speed.
 void Run::meetDuration() {
     if (route_.legCount() != 1 || !(route_.leg(0).duration > 0)) return;
-    if (optimal_) return optimal_->slowTo(course_, start_, route_.leg(0).duration / share_);
     const double share = std::exchange(share_, 1);
-    findDuration();
+    Leg& leg = route_.leg(0);
+    leg.programmed.pathSpeed = optimal_ ? optimalSpeedFor(leg.duration) : averagedSpeedFor(leg.duration);
+    leg.limits.pathSpeed = leg.programmed.pathSpeed;
     if (share != share_) plan(start_, share);
 }
 
-void Run::findDuration() {
-    const double wanted = route_.leg(0).duration;
+/// Plans with the speed along the path at which the course lasts that long; unlimited when it takes at least that. To be found in few
+/// rounds: each solves the whole course. The speed is the way divided by the time without what is lost at the ends, which hardly changes.
+double Run::optimalSpeedFor(double wanted) {
+    constexpr double kReserve = 5e-5; // of the time, which is made up at the end
+    constexpr int kMostRounds = 20;
+    const auto durationAt = [&](double speed) {
+        route_.leg(0).limits.pathSpeed = speed;
+        optimal_->measure(route_, 0);
+        course_ = newCourse(start_, 0);
+        return optimal_->plan(course_, route_, start_, 0, share_) ? course_.plannedEnd() - start_
+                                                                  : kUnlimited;
+    };
+    if (durationAt(kUnlimited) >= wanted) return kUnlimited;
+    const double aim = (1 - kReserve) * wanted;
+    double slow = route_.length() / wanted;
+    double fast = kUnlimited;
+    double speed = slow;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const double seconds = durationAt(speed);
+        (seconds > wanted ? slow : fast) = speed;
+        if (std::abs(seconds - aim) < kReserve * wanted) break;
+        const double left = aim - (seconds - route_.length() / speed);
+        speed = left > 0 ? route_.length() / left : kUnlimited;
+        if (!(speed > slow && speed < fast)) speed = fast < kUnlimited ? 0.5 * (slow + fast) : 2 * slow;
+    }
+    if (course_.plannedEnd() - start_ > wanted) durationAt(fast);
+    course_.slowBy(wanted / (course_.plannedEnd() - start_));
+    return fast;
+}
+
+/// The same of a course that is averaged in time.
+double Run::averagedSpeedFor(double wanted) {
     route_.leg(0).limits.pathSpeed = kUnlimited;
     limitStretches(0);
     std::vector<double> fastest;
@@ -354,7 +384,7 @@ void Run::findDuration() {
         planForward(start_);
         return course_.end() - start_;
     };
-    if (durationAt(kUnlimited) >= wanted) return;
+    if (durationAt(kUnlimited) >= wanted) return kUnlimited;
     double low = 0;
     double high = route_.length() / std::max(1e-3, wanted - settings_.longWindow - settings_.shortWindow) * 4;
     for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
@@ -362,7 +392,7 @@ void Run::findDuration() {
         (durationAt(middle) > wanted ? low : high) = middle;
     }
     durationAt(high);
-    route_.leg(0).limits.pathSpeed = route_.leg(0).programmed.pathSpeed = high;
+    return high;
 }
 
 /// A stretch on which deceleration decreases: in parts of the same time.

@@ -87,7 +87,8 @@ class Run {
     void passStretch(std::size_t stretch, double from, double square);
     void passTapered(std::size_t stretch, double from, double square, double last);
     void meetDuration();
-    void findDuration();
+    double optimalSpeedFor(double wanted);
+    double averagedSpeedFor(double wanted);
     double nodePlace(std::size_t node) const;
 
     RunSettings settings_;

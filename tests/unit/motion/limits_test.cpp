@@ -18,8 +18,9 @@ constexpr TimeNs kStep = 1'000'000;
 constexpr double kStepSeconds = 1e-9 * static_cast<double>(kStep);
 constexpr double kDegrees = 57.295779513082323;
 
-MotionSystem robotWithExternalAxes() {
+MotionSystem robotWithExternalAxes(Planner planner = Planner::Measured) {
     MotionOptions options;
+    options.planner = planner;
     options.external[0] = {true, false, -1000, 1000, 1000, 5000}; // linear
     options.external[1] = {true, true, -360, 360, 500, 5000};     // rotating
     MotionSystem system(robot::loadRobotModel("IRB 120-3/0.58").value(), options);
@@ -302,34 +303,38 @@ TEST_CASE("speed limits of a system input hold at once", "[motion][limits]") {
 }
 
 TEST_CASE("a speed limit changes the movement in progress", "[motion][limits]") {
-    MotionSystem system = robotWithExternalAxes();
-    MoveCommand command = line(system, 250);
-    command.speed.vTcp = 100;
-    SpeedLimits limits;
-    limits.tcp = 20;
-    double slowest = 1e9;
-    double after = 0;
-    const Most most = measured(system, command, [&](double second) {
-        if (std::abs(second - 0.8) < 1e-6) system.setSpeedLimits(limits);
-        if (second > 1.2 && second < 2) slowest = std::min(slowest, system.current().tcpSpeed);
-        if (std::abs(second - 2) < 1e-6) system.setSpeedLimits({});
-        if (std::abs(second - 2.4) < 1e-6) after = system.current().tcpSpeed;
-    });
-    CHECK(most.tcp == Approx(100).epsilon(0.002));
-    CHECK(slowest == Approx(20).epsilon(0.001));
-    CHECK(after == Approx(100).epsilon(0.001));
+    for (const Planner planner : {Planner::Measured, Planner::Optimal}) {
+        MotionSystem system = robotWithExternalAxes(planner);
+        MoveCommand command = line(system, 250);
+        command.speed.vTcp = 100;
+        SpeedLimits limits;
+        limits.tcp = 20;
+        double slowest = 1e9;
+        double after = 0;
+        const Most most = measured(system, command, [&](double second) {
+            if (std::abs(second - 0.8) < 1e-6) system.setSpeedLimits(limits);
+            if (second > 1.2 && second < 2) slowest = std::min(slowest, system.current().tcpSpeed);
+            if (std::abs(second - 2) < 1e-6) system.setSpeedLimits({});
+            if (std::abs(second - 2.4) < 1e-6) after = system.current().tcpSpeed;
+        });
+        CHECK(most.tcp == Approx(100).epsilon(0.002));
+        CHECK(slowest == Approx(20).epsilon(0.001));
+        CHECK(after == Approx(100).epsilon(0.001));
+    }
 }
 
 TEST_CASE("a limited movement with a duration keeps its pace when the limit goes", "[motion][limits]") {
-    MotionSystem system = robotWithExternalAxes();
-    MoveCommand command = axisOne(system, 90);
-    command.duration = 3; // about 32 deg/s
-    SpeedLimits limits;
-    limits.joints[0] = 10;
-    const Most most = measured(system, command, [&](double second) {
-        if (std::abs(second - 0.8) < 1e-6) system.setSpeedLimits(limits);
-        if (std::abs(second - 1.8) < 1e-6) system.setSpeedLimits({});
-    });
-    CHECK(most.axis < 33);
-    CHECK(most.seconds == Approx(3.7).margin(0.1)); // a second at a third of the speed
+    for (const Planner planner : {Planner::Measured, Planner::Optimal}) {
+        MotionSystem system = robotWithExternalAxes(planner);
+        MoveCommand command = axisOne(system, 90);
+        command.duration = 3; // about 32 deg/s
+        SpeedLimits limits;
+        limits.joints[0] = 10;
+        const Most most = measured(system, command, [&](double second) {
+            if (std::abs(second - 0.8) < 1e-6) system.setSpeedLimits(limits);
+            if (std::abs(second - 1.8) < 1e-6) system.setSpeedLimits({});
+        });
+        CHECK(most.axis < 33);
+        CHECK(most.seconds == Approx(3.7).margin(0.1)); // a second at a third of the speed
+    }
 }

@@ -117,6 +117,30 @@ TEST_CASE("a movement without the mark leads back to its own path", "[motion][mo
     CHECK(isNear(last, start + Vec3{0, 100, -100}, 1e-6));
 }
 
+TEST_CASE("a displacement turns no faster than it changes where the path turns along the tool",
+          "[motion][modifier]") {
+    MotionSystem system = makeSystem();
+    const auto corrections = std::make_shared<PathCorrections>();
+    system.addModifier(corrections);
+    corrections->setOffset({0, 3, 2});
+    const Vec3 z = rotate(system.current().tcp.rot, Vec3{0, 0, 1});
+    for (const Vec3& way : {Vec3{0, 80, 0}, z * -50.0, Vec3{0, -60, 0}}) {
+        MoveCommand command = lineBy(system, way, 50);
+        command.zone = {way.y < 0, 10, 15, 15, 1.5, 15, 1.5};
+        command.modifications.push_back(corrections->modification());
+        REQUIRE(system.enqueue(command).hasValue());
+    }
+    Vec3 before = system.current().tcp.pos;
+    double fastest = 0;
+    run(system, 6000 * kMs, [&](const MotionState& state, TimeNs) {
+        fastest = std::max(fastest, norm(state.tcp.pos - before) / 0.004);
+        before = state.tcp.pos;
+    });
+    CHECK(system.isIdle());
+    CHECK(fastest > 50);
+    CHECK(fastest < 50 + 100 * 1.05); // along and across
+}
+
 TEST_CASE("corrections keep to circles", "[motion][modifier]") {
     MotionSystem system = makeSystem();
     const auto corrections = std::make_shared<PathCorrections>();
