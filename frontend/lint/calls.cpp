@@ -83,6 +83,7 @@ void Walker::argument(const BoundCall& call, const BoundArg& arg) {
         return;
     }
     if (param && !call.routine->native && param->mode == ParamMode::In) setFrom(*param, *arg.value);
+    if (param && param->mode == ParamMode::In) byteValue(param->type, *arg.value);
     const bool byReference =
         param && (param->mode != ParamMode::In || param->type.type->kind == TypeKind::SemiValue);
     if (byReference && isPlace(*arg.value))

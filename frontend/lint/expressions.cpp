@@ -25,7 +25,34 @@ bool isIdentifier(TokenKind kind) {
     return kind == TokenKind::Identifier;
 }
 
+bool isByte(const sema::Type& type) {
+    for (const sema::Type* t = &type; t; t = t->aliasOf)
+        if (t->known == sema::KnownType::Byte) return true;
+    return false;
+}
+
+const double* firstBeyondByte(const ConstValue& value) {
+    if (value.kind == ConstValue::Kind::Number) {
+        const double number = value.number;
+        return number >= 0 && number <= 255 && number == std::floor(number) ? nullptr : &value.number;
+    }
+    for (const ConstValue& member : value.members())
+        if (const double* found = firstBeyondByte(member)) return found;
+    return nullptr;
+}
+
 } // namespace
+
+const double* wrongByte(const sema::DataType& type, const ConstValue& value) {
+    return type.type && isByte(*type.type) ? firstBeyondByte(value) : nullptr;
+}
+
+/// A constant that a byte gets. Data may hold any number, as byte is a num; bit functions raise ERR_ARGVALERR for it.
+void Walker::byteValue(const sema::DataType& wanted, const Expr& value) {
+    const ConstValue* known = constant(value);
+    const double* wrong = known ? wrongByte(wanted, *known) : nullptr;
+    if (wrong) report(say::ByteOutOfRange, range(value), {fmt::format("{}", *wrong)});
+}
 
 const ConstValue* Walker::constant(const Expr& e) const {
     const sema::ExprInfo& known = info(e);

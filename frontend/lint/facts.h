@@ -100,6 +100,9 @@ template <class Visit> void forEachFraction(const sema::ConstValue& value, const
         forEachFraction(member, visit);
 }
 
+/// The first number in the value of a byte, or of an array of bytes, that is none; null: there is none, or the type is another.
+const double* wrongByte(const sema::DataType& type, const sema::ConstValue& value);
+
 /// Predefined things by name, for what hides them.
 struct Predefined {
     std::vector<const sema::Symbol*> byName; ///< by Symbol::nameId

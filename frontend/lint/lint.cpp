@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <set>
@@ -340,6 +341,10 @@ void TaskLint::data(const DataSymbol& data) {
     const bool constant = data.dataKind == DataKind::Const;
     const char* kind = constant ? "constant" : pers ? "persistent" : "variable";
     hiding(data, kind);
+    if (const double* wrong = data.init ? wrongByte(data.type, data.value()) : nullptr) {
+        const SyntaxTree& tree = *data.module->tree;
+        reporter_.report(say::ByteOutOfRange, tree, tree.range(*data.init), {fmt::format("{}", *wrong)});
+    }
     if (data.used || facts_.dataByName || mayBeUsedElsewhere(data)) return;
     // Persistents are the door to the outside: displays, other computers, jogging.
     const sema::Type* t = data.type.type;

@@ -139,6 +139,7 @@ void Walker::finish() {
         if ((access_[param->index] & kUpdated) != 0)
             report(say::ParameterAssigned, range(*updates_[param->index]), {param->name});
     for (const DataSymbol* data : routine_->data) {
+        if (data->init) byteValue(data->type, *data->init);
         if (data->storage != Storage::RoutineData || data->index >= access_.size()) continue;
         if (access_[data->index] == kAssigned)
             report(say::UnreadVariable, tree_->range(data->nameToken), {data->name});
@@ -238,7 +239,10 @@ bool Walker::statement(const Stmt& s) {
     case NodeKind::Goto: gotoStmt(as<GotoStmt>(s)); return false;
     case NodeKind::Connect: connect(as<ConnectStmt>(s)); return true;
     case NodeKind::Return:
-        if (const Expr* value = as<ReturnStmt>(s).value) expr(*value);
+        if (const Expr* value = as<ReturnStmt>(s).value) {
+            expr(*value);
+            byteValue(routine_->returnType, *value);
+        }
         ++jumps_;
         return false;
     case NodeKind::Raise:
@@ -272,6 +276,7 @@ void Walker::assign(const AssignStmt& s) {
     expr(*s.value);
     copied_ = nullptr;
     if (root) setFrom(*root, *s.value);
+    byteValue(info(*s.target).type(), *s.value);
     const bool fromItself = own && (access_[root->index] & kRead) != 0;
     if (own) access_[root->index] |= before & kRead;
     subscripts(*s.target);

@@ -100,6 +100,7 @@ class Walker {
     void expr(const Expr& e, bool partOfText = false);
     void binary(const syntax::BinaryExpr& e, bool partOfText);
     void inexact(const syntax::NumLiteralExpr& e);
+    void byteValue(const sema::DataType& wanted, const Expr& value);
     void identical(const syntax::BinaryExpr& e);
     void comparison(const syntax::BinaryExpr& e);
     void judgeSignal(const Expr& signal, const Expr& value);

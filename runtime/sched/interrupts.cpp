@@ -97,6 +97,10 @@ template <class Condition> void InterruptTable::dropQueued(Condition drop) {
     queue_.erase(std::remove_if(queue_.begin(), queue_.end(), gone), queue_.end());
 }
 
+void InterruptTable::forgetQueued(int number) {
+    dropQueued([number](int queued) { return queued == number; });
+}
+
 void InterruptTable::clear() {
     std::map<int, Definition> all;
     all.swap(defined_);

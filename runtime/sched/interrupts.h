@@ -81,6 +81,8 @@ class InterruptTable {
     /// The safe ones in the queue, in their order (a stop and a power failure leave these alone); and back.
     std::vector<int> queuedSafe() const;
     void queueAgain(int number);
+    /// Those of this number in the queue are thrown away: their cause is gone.
+    void forgetQueued(int number);
     /// IDelete. False when the number is not defined.
     bool remove(int number);
     /// Every definition disappears (program reset).

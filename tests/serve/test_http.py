@@ -371,6 +371,16 @@ class Origins(ServeCase):
                 self.assertEqual(self.socket(client, response, headers={"Origin": origin}).status, 403)
             self.assertEqual(self.socket(client, response, headers={"Origin": client.address}).status, 101)
 
+    def test_upgrades_of_libraries(self):
+        """17: the server's own origin. Libraries outside browsers write it with the scheme of the WebSocket (ws4py, Go clients)."""
+        for client in self.both():
+            response = client.subscribe(PATH)
+            own = response.header("location").split("/poll")[0]
+            other = own.replace("wss:", "ws:") if client.dialect == 2 else own.replace("ws:", "wss:")
+            for origin in (other, own + "0"):
+                self.assertEqual(self.socket(client, response, headers={"Origin": origin}).status, 403, origin)
+            self.assertEqual(self.socket(client, response, headers={"Origin": own}).status, 101)
+
 
 class Formats(ServeCase):
     """Contract 18 to 21."""

@@ -452,6 +452,20 @@ JOINT:
             self.assertEqual(order("STN1", "Half"), 400)
             client.close()
 
+    def test_events_of_activation(self):
+        """RWS documentation, Subscribe on Mechunit Mode Change: motionsystem-ev counts activations and deactivations."""
+        for client in self.both():
+            if client.dialect == 2:
+                self.assertEqual(client.post("/rw/mastership/motion/request").status, 204)
+            response = client.subscribe("/rw/motionsystem/mechunits;mechunitmodechangecount")
+            socket = self.socket(client, response)
+            for count, mode in (("1", "Deactivated"), ("2", "Activated")):
+                path = "/rw/motionsystem/mechunits/STN1" + ("?action=set" if client.dialect == 1 else "")
+                self.assertEqual(client.post(path, {"mode": mode}).status, 204)
+                event = socket.event()
+                self.assertEqual((event.type, event.values), ("motionsystem-ev", {"change-count": count}))
+            client.close()
+
     def test_positions_by_task(self):
         """RWS documentation: tasks/T/motion?resource=mechunit, robtarget, jointtarget, extjointstate."""
         for client in self.both():

@@ -108,6 +108,33 @@ class Execution(RapidCase):
         self.assertEqual(client.post(f"{TASK}/pcp/reset").status, 204)
         self.wait_position(client, "7,5")
 
+    def test_to_the_next_and_the_previous_instruction(self):
+        """RWS documentation: pcp?action=set-pp-next-inst and set-pp-prev-inst."""
+        client = self.master(1)
+        self.reset(client)
+        first = self.position(client)["beginposition"]
+        self.assertEqual(client.act(f"{TASK}/pcp", "set-pp-next-inst").status, 204)
+        self.eventually(lambda: self.position(client)["beginposition"] != first)
+        self.assertEqual(client.act(f"{TASK}/pcp", "set-pp-prev-inst").status, 204)
+        self.eventually(lambda: self.position(client)["beginposition"] == first)
+
+    def test_questions_about_a_task(self):
+        """RWS documentation: tasks/T?resource=task-sync-state, pallet-head and pallet; execution?action=holdtorun-state."""
+        client = self.client(1)
+        for path in ("/rw/rapid/tasks", TASK):
+            for which, span in (("program-pointer", "Program-Pointer-State"), ("motion-pointer", "Motion-Pointer-State")):
+                found = client.get(f"{path}?resource=task-sync-state&type={which}").values("rap-sync-state")
+                self.assertEqual(found, {span: "On"})
+            self.assertEqual(client.get(f"{path}?resource=task-sync-state").status, 400)
+        heads = [entry.values for entry in client.get(f"{TASK}?resource=pallet-head").entries("rap-pallet-head")]
+        self.assertEqual([head["Number"] for head in heads], [str(number + 1) for number in range(len(heads))])
+        names = [entry.values["Name"] for head in heads
+                 for entry in client.get(f"{TASK}?resource=pallet&number={head['Number']}").entries("rap-pallet")]
+        self.assertIn("MoveJ", names)
+        self.assertEqual(client.get(f"{TASK}?resource=pallet&number=0").status, 404)
+        self.assertEqual(client.get(f"{TASK}?resource=odd").status, 400)
+        self.assertEqual(client.post("/rw/rapid/execution?action=holdtorun-state", {"state": "press"}).status, 204)
+
     def test_to_a_line_right_after_to_another_routine(self):
         """25 and 31: pcp/cursor holds whatever the order before it was, and pcp shows it at once."""
         client = self.master(1)
@@ -550,16 +577,23 @@ ENDMODULE
             self.assertEqual((response.status, response.code()), (400, -1073445879))
             names = [entry.title for entry in client.get("/rw/dipc").entries("dipc-queue-li")]
             self.assertEqual(names, ["RMQ_T_ROB1", "PC"])
+            slot = client.get("/rw/dipc/PC" + ("" if client.dialect == 1 else "/information")).values("dipc-queue")["queue-slot-id"]
+            response = client.subscribe("/rw/dipc/PC;nomessage")
+            without = self.socket(client, response)
             response = client.subscribe("/rw/dipc/PC")
             self.assertEqual(response.status, 201)
             socket = self.socket(client, response)
             message = {"dipc-src-queue-name": "PC", "dipc-cmd": "111", "dipc-userdef": "1", "dipc-msgtype": "1", "dipc-data": "num;41"}
             self.assertIn(client.act("/rw/dipc/RMQ_T_ROB1", "send", message).status, (200, 204))
             event = socket.event()
-            self.assertEqual((event.type, event.values["dipc-data"]), ("dipc-msg-ev", "num;42"))
-            read = "/rw/dipc/PC?action=read&timeout=5" if client.dialect == 1 else "/rw/dipc/PC?dipc-timeout=5000"
+            self.assertEqual((event.type, event.title, event.values["dipc-data"]), ("dipc-msg-ev", "msg", "num;42"))
+            self.assertEqual(event.values["dipc-slotid"], slot)
+            event = without.event()  # RWS documentation: the slot only
+            self.assertEqual((event.type, event.values), ("dipc-msg-ev", {"dipc-slotid": slot}))
+            read = "/rw/dipc/PC?action=read&timeout=5000" if client.dialect == 1 else "/rw/dipc/PC?dipc-timeout=5000"
             found = client.get(read).values("dipc-read-li" if client.dialect == 1 else "dipc-read")
             self.assertEqual((found["dipc-data"], found["queue-name"]), ("num;42", "RMQ_T_ROB1"))
+            self.assertEqual((found["queue-sid"], found["queue-did"], found["dipc-msgtype"]), (slot, "1", "IPC_PACKAGE"))
             self.assertEqual(client.get(read.split("timeout")[0] + "timeout=0").entries(), [])
             for wrong in ({"dipc-data": "42"}, {"dipc-data": 'num;"x"'}, {"dipc-userdef": "x"}, {"dipc-msgtype": "x"}):
                 self.assertEqual(client.act("/rw/dipc/RMQ_T_ROB1", "send", {**message, **wrong}).status, 400)
@@ -567,6 +601,57 @@ ENDMODULE
             self.assertEqual(client.delete("/rw/dipc/PC").status, 204)
             self.assertEqual(client.delete("/rw/dipc/PC").status, 404)
             self.assertEqual(client.delete("/rw/dipc/RMQ_T_ROB1").status, 403)
+
+
+class QueuesAfterRestart(RapidCase):
+    """Decision 132: a restart empties the queues of tasks, ends those of clients, and no interrupt reports a message that is gone."""
+
+    MODULE = """MODULE M
+  PERS num received := 0;
+  PERS num last := 0;
+  VAR intnum came;
+  PROC main()
+    VAR num value;
+    CONNECT came WITH onMessage;
+    IRMQMessage value, came;
+    WHILE TRUE DO
+      WaitTime 0.1;
+    ENDWHILE
+  ENDPROC
+  TRAP onMessage
+    VAR rmqmessage message;
+    VAR num data;
+    RMQGetMessage message;
+    RMQGetMsgData message, data;
+    received := received + 1;
+    last := data;
+  ENDTRAP
+ENDMODULE
+"""
+    OPTIONS = ()
+
+    def send(self, client, value):
+        message = {"dipc-src-queue-name": "", "dipc-cmd": "111", "dipc-userdef": "1", "dipc-msgtype": "1", "dipc-data": f"num;{value}"}
+        self.assertIn(client.act("/rw/dipc/RMQ_T_ROB1", "send", message).status, (200, 204))
+
+    def test_restart(self):
+        client = self.client(1)
+        create = {"dipc-queue-name": "PC", "dipc-queue-size": "10", "dipc-max-msg-size": "444"}
+        self.assertEqual(client.post("/rw/dipc?action=dipc-create", create).status, 201)
+        self.send(client, 5)
+        self.eventually(lambda: self.value("T_ROB1/M/received") == "1")
+        self.assertEqual(client.act("/rw/rapid/execution", "stop", {"stopmode": "stop"}).status, 204)
+        self.wait_stopped(client)
+        self.send(client, 6)
+        self.send(client, 7)
+        self.assertEqual(client.post("/rw/panel?action=restart", {"restart-mode": "restart"}).status, 204)
+        self.assertEqual([entry.title for entry in client.get("/rw/dipc").entries("dipc-queue-li")], ["RMQ_T_ROB1"])
+        self.assertEqual(client.post("/rw/dipc?action=dipc-create", create).status, 201)
+        self.eventually(lambda: client.get("/rw/rapid/execution").values()["ctrlexecstate"] == "running")
+        self.send(client, 8)
+        self.eventually(lambda: self.value("T_ROB1/M/last") == "8")
+        self.assertEqual(self.value("T_ROB1/M/received"), "2", "6 and 7 were lost with the restart")
+        self.assertEqual(client.get("/rw/rapid/execution").values()["ctrlexecstate"], "running")
 
 
 class InvalidMessages(RapidCase):

@@ -174,6 +174,35 @@ class Cookies(ServeCase):
             self.assertEqual(response.cookies()["-http-session-"], cookies["-http-session-"])
             other.disconnect()
 
+    def test_curl_holds_content_back_until_it_is_challenged(self):
+        """Contract 11 and 12: curl --digest with a cookie file sends an empty form or file first, and what it has after a challenge."""
+        client = self.client()
+        path, form = "/rw/panel/speedratio?action=setspeedratio", "speed-ratio=70"
+        self.assertEqual(client.put("/fileservice/$HOME/curl.txt", b"before").status, 201)
+        for method, target, content in (("POST", path, form), ("PUT", "/fileservice/$HOME/curl.txt", "after")):
+            cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
+            headers = {"Cookie": cookie, "User-Agent": "curl/7.88.1"}
+            if method == "POST":
+                headers["Content-Type"] = "application/x-www-form-urlencoded"
+            response = client.send(method, target, b"", {**headers, "Content-Length": "0"})
+            self.assertEqual(response.status, 401)
+            headers["Authorization"] = client.digest(response.header("www-authenticate"), method, target)
+            self.assertIn(client.send(method, target, content, headers).status, (200, 204))
+        self.assertEqual(client.get("/rw/panel/speedratio").values()["speedratio"], "70")
+        self.assertEqual(client.get("/fileservice/$HOME/curl.txt").body, b"after")
+        # By a cookie alone, as curl sends it without --digest, and for clients that hold nothing back.
+        self.assertEqual(client.send("POST", path, form, {"Cookie": cookie, "User-Agent": "curl/7.88.1"}).status, 204)
+        self.assertEqual(client.post(path, {}).status, 400)
+
+    def test_a_subscription_repeats_the_cookies(self):
+        """Published clients (the sample of the RWS documentation) take the cookies of the event socket from the reply to /subscription."""
+        for client in self.both():
+            client.get(PATH)
+            before = dict(client.cookies)
+            response = client.subscribe(PATH)
+            self.assertEqual(response.cookies(), before)
+            self.assertEqual(client.get(PATH).cookies(), {})
+
     def test_cookies_are_not_guessable(self):
         values = [self.client(dialect).get(PATH).cookies()["-http-session-"] for dialect in (1, 1, 2, 2)]
         self.assertEqual(len(set(values)), 4)

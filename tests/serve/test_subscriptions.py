@@ -110,6 +110,49 @@ class StatesWithoutReports(SubscriptionCase):
         writer.close()
 
 
+class RareStates(SubscriptionCase):
+    """RWS documentation 3HAC050973, its subscription pages: states that a group may name, with the class and the values of each."""
+
+    DOCUMENTED = {  # path: class, title and values of the first entry; None: no first entry
+        "/rw/motionsystem/mechunits;mechunitmodechangecount": ("motionsystem-ev", "mechunit-statechange", {"change-count": "0"}),
+        "/rw/motionsystem/errorstate;erroreventchange": None,
+        "/rw/rapid/taskselection;taskpanelchange": ("rap-taskpanel-ev", "taskpanel", {"change-count": "0"}),
+        "/rw/rapid/execution;hdtrun": None,
+        "/rw/rapid/tasks;buildlogchange": None,
+        "/rw/rapid/tasks/T_ROB1;syncstatechange": ("rap-syncstate-ev", "syncstatechange", {"sync-state": "on"}),
+        "/rw/system/energy": ("sys-energy-ev", "energy", {"energy-state": "not-paused"}),
+    }
+
+    def test_one_group_with_all(self):
+        for client in self.both():
+            response, _ = self.open(client, OPMODE, *self.DOCUMENTED)
+            found = {self.anchor(entry): (entry.type, entry.title, entry.values) for entry in response.entries()}
+            self.assertEqual(found.pop(OPMODE)[0], "pnl-opmode-ev")
+            self.assertEqual(found, {path: entry for path, entry in self.DOCUMENTED.items() if entry})
+            self.assertIn(client.subscribe("/rw/rapid/tasks/T_NONE;syncstatechange").status, (400, 404))
+
+    def test_changes_of_the_configuration(self):
+        writer = self.client(1)
+        for client in self.both():
+            response, socket = self.open(client, "/rw/cfg")
+            first = response.values("cfg-prop-ev")["cc"]
+            label = {"Label": f"rare{client.dialect}"}
+            self.assertEqual(writer.post("/rw/cfg/EIO/EIO_SIGNAL/instances/do2?action=set", label).status, 204)
+            event = socket.event()
+            self.assertEqual((event.type, event.title, self.anchor(event)), ("cfg-prop-ev", "change-count", "/rw/cfg"))
+            self.assertGreater(int(event.values["cc"]), int(first))
+
+    def test_the_task_panel(self):
+        writer = self.client(1)
+        self.assertEqual(writer.post("/rw/rapid/execution?action=stop", {"stopmode": "stop"}).status, 204)
+        self.eventually(lambda: writer.get("/rw/rapid/execution").values()["ctrlexecstate"] == "stopped")
+        for client in self.both():
+            _, socket = self.open(client, "/rw/rapid/taskselection;taskpanelchange")
+            for count, action in (("1", "deactivate"), ("2", "activate")):
+                self.assertEqual(writer.post(f"/rw/rapid/tasks/T_ROB1?action={action}").status, 204)
+                self.assertEqual(socket.event().values, {"change-count": count})
+
+
 class Creating(SubscriptionCase):
     def test_response(self):
         """controller.md 2.4: 201, Location, anchors with end tags, numeric ID, initial values."""

@@ -68,6 +68,16 @@ class Values(RapidCase):
                     self.assertEqual([(entry.type, entry.values["value"]) for entry in found], [("rap-data", value)])
         self.in_all_forms(data(1, "T_ROB1/M/both"), data(2, "T_ROB1/M/both"))
 
+    def test_the_address_of_an_event(self):
+        """2.4: events repeat what was subscribed; published clients read that address, so ";value" is the resource itself."""
+        for client in self.both():
+            path = data(client.dialect, "T_ROB1/M/word")
+            self.assertEqual(client.get(path + ";value").values("rap-data")["value"], '"text"')
+            self.assertEqual(client.get(path + ";value").body, client.get(path).body)
+            self.assertIn("ctrlexecstate", client.get("/rw/rapid/execution;ctrlexecstate").values())
+            self.assertEqual(client.get("/rw/rapid;x/execution").status, 404)
+            self.assertEqual(client.get("/;value").status, 404)
+
     def test_strings_in_xhtml(self):
         """2.2: values travel as RAPID writes them, "text", for clients that use regular expressions."""
         for dialect in (1, 2):

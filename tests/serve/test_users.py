@@ -18,6 +18,11 @@ class Users(RapidCase):
                          ["me", "Default User", "local", "app", "here"])
         self.assertEqual(client.post("/users", {"username": "x" * 81}).status, 400)
         self.assertIn(client.post("/users/register", form).status, (200, 201, 204))
+        for locale in ("remote", "local"):  # 2.3: register local or remote user
+            del form["ulocale"]
+            self.assertIn(client.post(f"/users/register/{locale}", {**form, "local-key": "123456"}).status, (200, 201))
+            form["ulocale"] = locale
+            self.assertEqual(client.get("/users/login-info").values("user-login-info")["user-locale"], locale)
 
     def test_one_entry_for_each_session(self):
         """2.3: /users are those who are logged on; contract 12: a login makes a session, /logout ends it."""

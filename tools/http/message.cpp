@@ -55,6 +55,13 @@ std::string_view hostOf(std::string_view authority) {
     return authority.substr(0, authority.find(':'));
 }
 
+/// Clients may write the port that a scheme has by itself, or leave it out.
+std::string_view withoutStandardPort(std::string_view host, bool secure) {
+    const std::string_view port = secure ? ":443" : ":80";
+    if (host.ends_with(port)) host.remove_suffix(port.size());
+    return host;
+}
+
 bool isAddress(std::string_view host) {
     if (host.starts_with('[')) return true;
     return !host.empty() && host.find_first_not_of("0123456789.") == std::string_view::npos;
@@ -134,8 +141,16 @@ bool hasSafeHost(const Head& head) {
 bool hasOwnOrigin(const Head& head) {
     if (head.count("Origin") == 0) return true;
     if (head.count("Origin") > 1 || !hasSafeHost(head)) return false;
-    const std::string own = fmt::format("{}://{}", head.secure ? "https" : "http", head.header("Host"));
-    return sameName(head.header("Origin"), own);
+    std::string_view origin = head.header("Origin");
+    const std::size_t end = origin.find("://");
+    if (end == std::string_view::npos) return false;
+    const std::string_view scheme = origin.substr(0, end);
+    origin.remove_prefix(end + 3);
+    // Client libraries outside browsers name the scheme of their WebSocket.
+    const bool isOwnScheme = sameName(scheme, head.secure ? "https" : "http") ||
+                             (head.asksForSocket() && sameName(scheme, head.secure ? "wss" : "ws"));
+    return isOwnScheme && sameName(withoutStandardPort(origin, head.secure),
+                                   withoutStandardPort(head.header("Host"), head.secure));
 }
 
 } // namespace rapidc::http

@@ -53,7 +53,8 @@ const char* statusText(int status);
 std::string headOf(const Response& response, bool keepsAlive);
 
 /// Whether a browser that sends this request shows a page of this very server: no Origin, or one that equals Host, where the host is
-/// an address or localhost (a name could be made to lead here by whoever owns it).
+/// an address or localhost (a name could be made to lead here by whoever owns it). Of an upgrade the scheme may be ws or wss, which no
+/// browser writes.
 bool hasOwnOrigin(const Head& head);
 /// Whether Host is an address or localhost.
 bool hasSafeHost(const Head& head);

@@ -265,6 +265,18 @@ Reply Configuration::save(const Request& request) const {
 // ---- Routes --------------------------------------------------------------------------------------------------------
 
 void Configuration::subscribe(Subscribables& subscribables) {
+    subscribables.add({"/rw/cfg", "", false, std::nullopt,
+                       [this](const Request&, const Changed& changed, Subscription& out) {
+                           const auto read = [this] {
+                               Entry entry;
+                               entry.type = "cfg-prop-ev";
+                               entry.title = "change-count";
+                               entry.value("cc", fmt::format("{}", store_.changes()));
+                               return entry;
+                           };
+                           return watchState(controller_.observers(), {service::Change::Interval}, read,
+                                             changed, out);
+                       }});
     subscribables.add(
         {"/rw/cfg/{domain}", "", false, std::nullopt,
          [this](const Request& request, const Changed& changed, Subscription& out) -> std::optional<Failure> {

@@ -75,12 +75,14 @@ void Execution::addTo(Router& router, Subscribables& subscribables) {
              access_.guarded(Domain::Rapid, [this](const Request& request) { return setCycle(request); }));
     addOrder(router, kExecutionPath, "startprodentry", "startprodentry",
              access_.guarded(Domain::Rapid, [this](const Request&) { return startFromMain(); }));
-    addOrder(router, kExecutionPath, "holdtorun", "holdtorun", [](const Request& request) {
+    const Handler hold = [](const Request& request) {
         const std::string state = request.form.text("state");
         if (state != "press" && state != "held" && state != "release")
             return badParameter("state", "press, held or release");
         return Reply::done(); // a program that was started runs without being held
-    });
+    };
+    addOrder(router, kExecutionPath, "holdtorun-state", "holdtorun", hold);
+    router.action(kExecutionPath, "holdtorun", hold);
     const auto watch = [this](const char* type, const char* title, Change change, auto read) {
         return [this, type, title, change, read](const Request&, const Changed& changed, Subscription& out) {
             return watchState(

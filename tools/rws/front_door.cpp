@@ -30,6 +30,22 @@ bool hasFreeForm(const std::string& path) {
     return isLogout(path) || rapid::config::sameName(std::string_view(path).substr(0, kFiles.size()), kFiles);
 }
 
+/// "/rw/rapid/symbol/data/RAPID/T_ROB1/user/reg1;value", as subscriptions and events name it, is read as the resource itself.
+void dropSubscribedPart(std::string& path, std::vector<std::string>& segments) {
+    if (segments.empty()) return;
+    const std::size_t semicolon = segments.back().find(';');
+    if (semicolon == std::string::npos || semicolon == 0) return;
+    path.erase(path.size() - (segments.back().size() - semicolon));
+    segments.back().erase(semicolon);
+}
+
+/// curl --digest sends the content of a form or a file only after a challenge, even if a cookie is enough to be logged on.
+bool awaitsChallenge(const http::Head& head) {
+    return (head.method == "POST" || head.method == "PUT") && head.length == 0 &&
+           head.header("authorization").empty() &&
+           rapid::config::beginsWithName(head.header("user-agent"), "curl/");
+}
+
 /// A handler may throw when it meets what it did not expect: the request is refused, the controller lives on.
 Reply callHandler(const Handler& handler, const Request& request) {
     try {
@@ -127,6 +143,8 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
     visit.path = std::move(target->path);
     visit.segments = std::move(target->segments);
     visit.query = std::move(target->query);
+    if (methodOf(head.method) == Method::Get && !hasFreeForm(visit.path))
+        dropSubscribedPart(visit.path, visit.segments);
     const bool hasAction = std::any_of(visit.query.begin(), visit.query.end(), [](const auto& field) {
         return rapid::config::sameName(field.first, "action");
     });
@@ -164,7 +182,10 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
     const std::string cookie(head.cookie(kSessionCookie));
     sessions_.endBefore(restarts_);
     Sessions::LoggedOn* session = sessions_.find(cookie, dialect);
-    if (session == nullptr) {
+    if (session != nullptr && dialect == Dialect::V1 && awaitsChallenge(head))
+        return challenge(dialect, false);
+    const bool logsOn = session == nullptr;
+    if (logsOn) {
         if (head.asksForSocket()) {
             http::Response response = challenge(dialect, false);
             return response;
@@ -192,6 +213,9 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
                                      contextOf(dialect, head, visit.path));
             if (settings_.sessionBegan) settings_.sessionBegan(session->session);
         }
+    }
+    // Clients take the cookies of an event socket from the reply that names it.
+    if (logsOn || rapid::config::sameName(visit.path, "/subscription")) {
         visit.cookies.emplace_back("Set-Cookie",
                                    fmt::format("{}={}; path=/; httponly", kSessionCookie, session->cookie));
         visit.cookies.emplace_back("Set-Cookie",

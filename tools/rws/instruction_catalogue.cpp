@@ -46,7 +46,9 @@ std::string parametersOf(const sema::RoutineSymbol& routine) {
     return text;
 }
 
-Reply subjects(service::VirtualController& controller, const Request& request) {
+} // namespace
+
+Reply subjectsOfInstructions(service::VirtualController& controller, const Request& request) {
     if (taskOf(controller, request) == nullptr) return noTask(request);
     Document document;
     for (const sema::Module* module : subjectsOf(controller)) {
@@ -58,14 +60,15 @@ Reply subjects(service::VirtualController& controller, const Request& request) {
     return Reply::of(std::move(document));
 }
 
-Reply instructions(service::VirtualController& controller, const Request& request) {
+Reply instructionsOf(service::VirtualController& controller, const Request& request,
+                     const std::string& number) {
     if (taskOf(controller, request) == nullptr) return noTask(request);
     const auto all = subjectsOf(controller);
-    const auto number = countIn(request.parameter("category"));
-    if (!number || *number < 1 || *number > all.size())
-        return Reply::refuse(ReturnCode::NotFound, "there is no category " + request.parameter("category"));
+    const auto subject = countIn(number);
+    if (!subject || *subject < 1 || *subject > all.size())
+        return Reply::refuse(ReturnCode::NotFound, "there is no category " + number);
     Document document;
-    for (const sema::RoutineSymbol* routine : all[*number - 1]->routines) {
+    for (const sema::RoutineSymbol* routine : all[*subject - 1]->routines) {
         if (!isInstruction(*routine)) continue;
         document.add("rap-pallet", fmt::format("pallet{}", document.entries.size() + 1))
             .value("Name", routine->name)
@@ -75,13 +78,13 @@ Reply instructions(service::VirtualController& controller, const Request& reques
     return Reply::of(std::move(document));
 }
 
-} // namespace
-
 void addInstructionCatalogue(Router& router, service::VirtualController& controller) {
     router.get(Dialect::V2, "/rw/rapid/tasks/{task}/pallet-head",
-               [&controller](const Request& request) { return subjects(controller, request); });
+               [&controller](const Request& request) { return subjectsOfInstructions(controller, request); });
     router.get(Dialect::V2, "/rw/rapid/tasks/{task}/pallet/{category}",
-               [&controller](const Request& request) { return instructions(controller, request); });
+               [&controller](const Request& request) {
+                   return instructionsOf(controller, request, request.parameter("category"));
+               });
 }
 
 } // namespace rapidc::rws

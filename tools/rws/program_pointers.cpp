@@ -74,11 +74,13 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
     order("set-pp-main", "reset", &ProgramPointers::toMain);
     router.action(kPointersPath, "reset",
                   access_.guarded(Domain::Rapid, [this](const Request& request) { return toMain(request); }));
-    addOrder(router, kPointersPath, "next-inst", "next-inst",
-             access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, true); }));
-    addOrder(
-        router, kPointersPath, "prev-inst", "prev-inst",
-        access_.guarded(Domain::Rapid, [this](const Request& request) { return along(request, false); }));
+    for (const bool forward : {true, false}) {
+        const Handler step = access_.guarded(
+            Domain::Rapid, [this, forward](const Request& request) { return along(request, forward); });
+        const std::string name = forward ? "next-inst" : "prev-inst";
+        addOrder(router, kPointersPath, ("set-pp-" + name).c_str(), name.c_str(), step);
+        router.action(kPointersPath, name, step);
+    }
     const auto watch = [this](const char* type, const char* title, Change change, auto read) {
         return [this, type, title, change, read](const Request& request, const Changed& changed,
                                                  Subscription& out) -> std::optional<Failure> {

@@ -33,6 +33,11 @@ std::string valueText(const rt::lib::Message& message) {
     return valueOf(found).value_or("");
 }
 
+/// The fields of the form are numbers, those of replies words.
+std::string typeText(const std::string& number) {
+    return number == "0" ? "IPC_SEND" : "IPC_PACKAGE";
+}
+
 } // namespace
 
 /// A subscription to the messages of a queue.
@@ -51,8 +56,9 @@ class Queues::Listening final : public Watch {
 Queues::Queues(service::VirtualController& controller) : controller_(controller) {
     service::Observer observer;
     observer.changed = [this](service::Change change, const rt::Task*) {
-        if (change != service::Change::Generation) return;
+        if (change != service::Change::Restart && change != service::Change::Generation) return;
         const std::lock_guard lock(mutex_);
+        if (change == service::Change::Restart) queues_.clear(); // as on a controller that begins again
         for (const auto& [name, queue] : queues_)
             registerQueue(*queue);
     };
@@ -83,10 +89,12 @@ void Queues::addTo(Router& router, Subscribables& subscribables) {
         router.add(Dialect::V1, {Method::Get, one, action, read, Where::Disk});
     router.add(Dialect::V2, {Method::Get, one, {}, read, Where::Disk});
     router.addBoth({Method::Delete, one, {}, [this](const Request& request) { return remove(request); }});
-    subscribables.add(
-        {one, "", false, {}, [this](const Request& request, const Changed& changed, Subscription& out) {
-             return subscribe(request, changed, out);
-         }});
+    for (const bool withMessage : {true, false})
+        subscribables.add(
+            {one, withMessage ? "" : "nomessage", false, std::nullopt,
+             [this, withMessage](const Request& request, const Changed& changed, Subscription& out) {
+                 return subscribe(request, changed, withMessage, out);
+             }});
 }
 
 std::shared_ptr<Queues::Queue> Queues::find(const std::string& name) {
@@ -95,17 +103,19 @@ std::shared_ptr<Queues::Queue> Queues::find(const std::string& name) {
     return found == queues_.end() ? nullptr : found->second;
 }
 
-void Queues::registerQueue(const Queue& queue) {
+void Queues::registerQueue(Queue& queue) {
     const std::string name = queue.name;
     (void)rapidQueues().addOutside(name, queue.mostBytes, [this, name](const rt::lib::Message& message) {
         return deliver(name, message);
     });
+    queue.slot = slotOf(name);
 }
 
 bool Queues::deliver(const std::string& name, const rt::lib::Message& message) {
     const rt::lib::MessageQueue* sender = rapidQueues().find(message.sender);
     return put(name, {fmt::format("{};{}", message.typeName(), valueText(message)),
-                      rt::formatNum(message.userDefined), "1", "111", sender != nullptr ? sender->name : ""});
+                      rt::formatNum(message.userDefined), "1", "111", sender != nullptr ? sender->name : "",
+                      std::to_string(message.sender)});
 }
 
 bool Queues::put(const std::string& name, Message message) {
@@ -125,8 +135,10 @@ bool Queues::put(const std::string& name, Message message) {
     return true;
 }
 
-Reply Queues::list(const Request&) {
+Reply Queues::list(const Request& request) {
     Document document;
+    if (request.dialect == Dialect::V1)
+        document.add("dipc-info-li", "info").value("max-body-size", "444").value("max-pkg-size", "5000");
     const auto add = [&](const std::string& name, std::size_t messages, std::size_t bytes) {
         Entry& entry = document.add("dipc-queue-li", name);
         entry.self = "dipc/" + name;
@@ -168,9 +180,10 @@ Reply Queues::create(const Request& request) {
         const std::lock_guard lock(mutex_);
         if (queues_.size() >= kMostQueues)
             return Reply::refuse(ReturnCode::TooLarge, "There are too many queues");
-        queues_[lowerCase(queue->name)] = queue;
     }
     registerQueue(*queue);
+    const std::lock_guard lock(mutex_);
+    queues_[lowerCase(queue->name)] = queue;
     return Reply::done(201);
 }
 
@@ -189,7 +202,8 @@ Reply Queues::send(const Request& request) {
         if (slot == 0) return Reply::refuse(ReturnCode::NotFound, "There is no queue " + name);
         return sendToTask(request, *all.find(slot));
     }
-    Message message{request.form.text("dipc-data"), request.form.text("dipc-userdef"), type, command, from};
+    Message message{
+        request.form.text("dipc-data"), request.form.text("dipc-userdef"), type, command, from, slotOf(from)};
     if (message.data.size() > queue->mostBytes)
         return Reply::refuse(ReturnCode::TooLarge, "The message is too long");
     if (!put(name, std::move(message))) return Reply::refuse(ReturnCode::Rejected, "The queue is full");
@@ -240,18 +254,22 @@ Reply Queues::information(const Request& request) {
     return Reply::of(std::move(document));
 }
 
-/// RWS 1.0 waits for seconds, RWS 2.0 for milliseconds.
+/// A name that no queue has is slot 0, as of a message without sender.
+std::string Queues::slotOf(const std::string& name) {
+    return std::to_string(rapidQueues().findByName(name));
+}
+
+/// Waits for milliseconds at most.
 Reply Queues::read(const Request& request) {
     const std::shared_ptr<Queue> queue = find(request.parameter("queue"));
     if (!queue)
         return Reply::refuse(ReturnCode::NotFound,
                              "There is no queue of a client named " + request.parameter("queue"));
-    double seconds = 0;
+    double wait = 0;
     const std::string text = fieldOf(request, request.dialect == Dialect::V1 ? "timeout" : "dipc-timeout");
-    if (!text.empty() && (!rt::parseRapidNumber(text, seconds) || !(seconds >= 0) || !std::isfinite(seconds)))
-        return badParameter("timeout", "a positive number");
-    if (request.dialect == Dialect::V2) seconds /= 1000;
-    const std::chrono::duration<double> span(std::min(seconds, kLongestWait));
+    if (!text.empty() && (!rt::parseRapidNumber(text, wait) || !(wait >= 0) || !std::isfinite(wait)))
+        return badParameter("timeout", "a positive number of milliseconds");
+    const std::chrono::duration<double> span(std::min(wait / 1000, kLongestWait));
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, span, [&] { return !queue->messages.empty(); });
     Document document;
@@ -261,9 +279,12 @@ Reply Queues::read(const Request& request) {
     document.add(request.dialect == Dialect::V1 ? "dipc-read-li" : "dipc-read", queue->name)
         .value("dipc-data", message.data)
         .value("dipc-userdef", message.userdef)
-        .value("dipc-msgtype", message.type)
+        .value("dipc-msgtype", typeText(message.type))
         .value("dipc-cmd", message.command)
-        .value("queue-name", message.from);
+        .value("queue-name", message.from)
+        .value("queue-size", std::to_string(queue->mostMessages))
+        .value("queue-sid", queue->slot)
+        .value("queue-did", message.slot);
     return Reply::of(std::move(document));
 }
 
@@ -283,20 +304,23 @@ Reply Queues::remove(const Request& request) {
     return Reply::done();
 }
 
-std::optional<Failure> Queues::subscribe(const Request& request, const Changed& changed, Subscription& out) {
+std::optional<Failure> Queues::subscribe(const Request& request, const Changed& changed, bool withMessage,
+                                         Subscription& out) {
     const std::shared_ptr<Queue> queue = find(request.parameter("queue"));
     if (!queue) return Failure{ReturnCode::NotFound, "There is no such queue of a client"};
     const uint64_t number = ++lastListener_;
-    queue->listeners[number] = [changed, name = queue->name,
-                                count = uint64_t{0}](const Message& message) mutable {
+    queue->listeners[number] = [changed, withMessage, slot = queue->slot](const Message& message) {
         Entry entry;
         entry.type = "dipc-msg-ev";
-        entry.title = fmt::format("{}/{}", name, ++count); // messages are never merged
-        changed(entry.value("dipc-data", message.data)
-                    .value("dipc-userdef", message.userdef)
-                    .value("dipc-msgtype", message.type)
-                    .value("dipc-cmd", message.command)
-                    .value("queue-name", message.from));
+        entry.title = "msg";
+        entry.value("dipc-slotid", slot);
+        if (withMessage)
+            entry.value("dipc-data", message.data)
+                .value("dipc-userdef", message.userdef)
+                .value("dipc-msgtype", typeText(message.type))
+                .value("dipc-cmd", message.command)
+                .value("queue-name", message.from);
+        changed(std::move(entry));
     };
     out.watch = std::make_unique<Listening>(queue, number);
     return std::nullopt;

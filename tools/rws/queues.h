@@ -28,9 +28,11 @@ class Queues {
   private:
     struct Message {
         std::string data, userdef, type, command, from;
+        std::string slot; ///< of the sender
     };
     struct Queue {
         std::string name, user; ///< who made it
+        std::string slot;       ///< its identity for tasks (rmqslot)
         std::size_t mostMessages = 0, mostBytes = 0;
         std::deque<Message> messages;
         std::map<uint64_t, std::function<void(const Message&)>>
@@ -46,12 +48,14 @@ class Queues {
     /// On a worker: may wait for a message.
     Reply read(const Request& request);
     Reply remove(const Request& request);
-    std::optional<Failure> subscribe(const Request& request, const Changed& changed, Subscription& out);
+    std::optional<Failure> subscribe(const Request& request, const Changed& changed, bool withMessage,
+                                     Subscription& out);
     /// False: it is full.
     bool put(const std::string& name, Message message);
     std::shared_ptr<Queue> find(const std::string& name);
     /// The queues of clients become known to the tasks.
-    void registerQueue(const Queue& queue);
+    void registerQueue(Queue& queue);
+    std::string slotOf(const std::string& name);
     bool deliver(const std::string& name, const rt::lib::Message& message);
     rt::lib::MessageQueues& rapidQueues() { return rt::lib::MessageQueues::of(controller_.core()); }
 

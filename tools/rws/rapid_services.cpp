@@ -4,6 +4,7 @@
 #include "tools/rws/device_tree.h"
 #include "tools/rws/instruction_catalogue.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/rws/rare_states.h"
 
 namespace rapidc::rws {
 
@@ -28,6 +29,7 @@ void RapidServices::addTo(Router& router, Subscribables& subscribables) {
     symbols_.addTo(router, subscribables);
     dialogs_.addTo(router, subscribables);
     queues_.addTo(router, subscribables);
+    addRareStates(controller_, subscribables);
     addAliasSignals(router, controller_);
     addDeviceTree(router, controller_);
     addInstructionCatalogue(router, controller_);

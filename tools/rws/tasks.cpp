@@ -2,6 +2,7 @@
 #include "tools/rws/request_values.h"
 
 #include "config/letter_case.h"
+#include "tools/rws/instruction_catalogue.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/state_watch.h"
 #include "tools/service/pointers.h"
@@ -185,6 +186,7 @@ void Tasks::describe(const rt::Task& task, Dialect dialect, Entry& entry) const 
 }
 
 Reply Tasks::list(const Request& request) {
+    if (sameName(request.query.text("resource"), "task-sync-state")) return synchronisation(request);
     Document document;
     document.place = Document::Place::Resources;
     for (const auto& task : controller_.core().tasks()) {
@@ -201,8 +203,13 @@ Reply Tasks::show(const Request& request) {
     if (task == nullptr) return noTask(request);
     if (const std::string resource = request.query.text("resource"); !resource.empty()) {
         if (sameName(resource, "activation-record")) return activationRecord(request);
+        if (sameName(resource, "task-sync-state")) return synchronisation(request);
+        if (sameName(resource, "pallet-head")) return subjectsOfInstructions(controller_, request);
+        if (sameName(resource, "pallet"))
+            return instructionsOf(controller_, request, request.query.text("number"));
         if (!sameName(resource, "structural-change-count") && !sameName(resource, "structural-changecount"))
-            return badParameter("resource", "activation-record or structural-change-count");
+            return badParameter("resource", "activation-record, structural-change-count, task-sync-state, "
+                                            "pallet-head or pallet");
         Document document;
         document.add("rap-task-struc-change-count", "change-count")
             .value("change-count", std::to_string(controller_.structuralChanges(*task)));
@@ -220,6 +227,18 @@ Reply Tasks::show(const Request& request) {
         .value("prodentrypt", task->index() < checked.size() ? checked[task->index()]->entry : "main")
         .value("bind_ref", boolText(!sameName(parameterOf(*task, "BindRef", "yes"), "no")))
         .value("task_in_forgnd", task->foreground() ? task->foreground()->name() : "");
+    return Reply::of(std::move(document));
+}
+
+/// RWS 1.0. Pointers that are set together stay together.
+Reply Tasks::synchronisation(const Request& request) {
+    const std::string type = request.query.text("type");
+    const bool isMotion = sameName(type, "motion-pointer");
+    if (!isMotion && !sameName(type, "program-pointer"))
+        return badParameter("type", "program-pointer or motion-pointer");
+    Document document;
+    document.add("rap-sync-state", "sync-state")
+        .value(isMotion ? "Motion-Pointer-State" : "Program-Pointer-State", "On");
     return Reply::of(std::move(document));
 }
 

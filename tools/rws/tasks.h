@@ -20,6 +20,7 @@ class Tasks {
     void subscribe(Subscribables& subscribables);
     Reply list(const Request& request);
     Reply show(const Request& request);
+    static Reply synchronisation(const Request& request);
     Reply activate(const Request& request, bool active);
     Reply loadModule(const Request& request);
     Reply unloadModule(const Request& request);

@@ -86,6 +86,13 @@ void Users::addTo(Router& router, Subscribables& subscribables) {
     });
     router.post(Dialect::V2, "/users/register",
                 [this](const Request& request) { return registerPerson(request); });
+    for (const char* locale : {"local", "remote"}) // the path says where the person is
+        router.post(Dialect::V2, std::string("/users/register/") + locale,
+                    [this, locale](const Request& request) {
+                        Request placed = request;
+                        placed.form.add("ulocale", locale);
+                        return registerPerson(placed);
+                    });
     router.get(Dialect::V2, "/users/login-info",
                [this](const Request& request) { return loginInfo(request); });
     router.getBoth("/users/rmmp", [this](const Request& request) { return privilege(request); });

@@ -6,6 +6,7 @@
 #include "runtime/host/panel_switches.h"
 #include "runtime/host/stop_signals.h"
 #include "runtime/host/system_orders.h"
+#include "stdlib/impl/queues/message_queue.h"
 #include "tools/program/run_setup.h"
 #include "tools/service/panel_orders.h"
 
@@ -251,7 +252,6 @@ Refusal VirtualController::restart(RestartMode mode) {
     next->programStart = settings_.programStart;
     next->motorsOn = settings_.beginsWithMotors();
     if (release_) release_();
-    if (mode == RestartMode::Warm) next->state = core_->captureState();
     if (mode == RestartMode::Cold || isConfigurationChanged_) {
         std::string problems;
         rt::ExitStatus status = rt::ExitStatus::Ended;
@@ -266,6 +266,10 @@ Refusal VirtualController::restart(RestartMode mode) {
         }
         edits_ = edits;
         isConfigurationChanged_ = false;
+    }
+    if (mode == RestartMode::Warm) {
+        rt::lib::MessageQueues::of(*core_).emptyAll();
+        next->state = core_->captureState();
     }
     panel_.motors = next->motorsOn ? MotorState::On : MotorState::Off;
     emergencyStop_ = safeguardOpen_ = false;

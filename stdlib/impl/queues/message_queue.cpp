@@ -85,6 +85,15 @@ void MessageQueues::removeOutside(std::string_view name) {
         if (queue->task == nullptr && rapid::config::sameName(queue->name, name)) queue->exists = false;
 }
 
+void MessageQueues::emptyAll() {
+    for (const auto& queue : queues_) {
+        if (queue->task == nullptr) continue;
+        queue->messages.clear();
+        for (const auto& [type, number] : queue->orders)
+            queue->task->interrupts().forgetQueued(number);
+    }
+}
+
 MessageQueues::Sent MessageQueues::send(MessageQueue& target, Message message) {
     if (message.size() > target.maxSize) return Sent::TooLarge;
     if (target.deliver) return target.deliver(std::move(message)) ? Sent::Ok : Sent::Full;

@@ -73,6 +73,8 @@ class MessageQueues {
     /// The tasks find a queue of a client outside by this name; `deliver` is false when it is full. False: the name is taken.
     bool addOutside(std::string name, std::size_t maxSize, std::function<bool(Message)> deliver);
     void removeOutside(std::string_view name);
+    /// The queues of tasks lose their messages, and the interrupts that report them: the controller restarts.
+    void emptyAll();
     const std::vector<std::unique_ptr<MessageQueue>>& all() const { return queues_; }
 
     enum class Sent : uint8_t { Ok, TooLarge, Full };

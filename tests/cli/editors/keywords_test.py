@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The files of editors/: every keyword of the lexer is in every word list and no other word is; what package.json names is there."""
+"""The files of editors/: every keyword of the lexer is in every word list and no other word is; what package.json names is there; the
+settings of Helix and Kate have the keys that these editors read."""
 
 import json
 import pathlib
 import re
 import sys
+import tomllib
 import xml.etree.ElementTree as ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -67,9 +69,57 @@ def vscode_problems():
             yield f"package.json: the launch argument {name} is missing"
 
 
+# Helix refuses a file with a key of [[language]] that it does not know (docs.helix-editor.com, Languages and Adding languages).
+HELIX_LANGUAGE = {"name", "scope", "file-types", "roots", "comment-token", "comment-tokens", "indent", "language-servers", "auto-format",
+                  "debugger"}
+HELIX_DEBUGGER = {"name", "transport", "command", "args", "templates"}
+HELIX_TEMPLATE = {"name", "request", "completion", "args"}
+# docs.kde.org, Kate handbook, LSP Client Plugin, Configuration.
+KATE_SERVER = {"command", "commandDebug", "root", "rootIndicationFileNames", "rootIndicationFilePatterns", "url", "highlightingModeRegex",
+               "initializationOptions", "settings", "documentLanguageId", "use"}
+
+
+def helix_problems():
+    """The server takes documents of the language "rapid"; the debugger starts a program that the user chooses."""
+    settings = tomllib.loads((EDITORS / "helix/languages.toml").read_text(encoding="utf-8"))
+    language = settings["language"][0]
+    debugger = language["debugger"]
+    for what, given, known in (("language", language, HELIX_LANGUAGE), ("debugger", debugger, HELIX_DEBUGGER),
+                               *(("template", template, HELIX_TEMPLATE) for template in debugger["templates"])):
+        if set(given) - known:
+            yield f"helix: {what} has unknown keys {sorted(set(given) - known)}"
+    if language["name"] != "rapid" or not language["scope"]:
+        yield "helix: the language is not rapid"
+    if set(language["language-servers"]) - set(settings["language-server"]):
+        yield "helix: a language server is not defined"
+    types = {each if isinstance(each, str) else each["glob"].removeprefix("*.") for each in language["file-types"]}
+    if types != {"modx", "sysx", "mod", "sys"}:
+        yield f"helix: the file types are {sorted(types)}"
+    if debugger["transport"] != "stdio" or debugger["templates"][0]["args"]["program"] != "{0}":
+        yield "helix: the debugger has no program on standard input and output"
+    for command, word in ((settings["language-server"]["rapidc"], "lsp"), (debugger, "dap")):
+        if (command["command"], command["args"]) != ("rapidc", [word]):
+            yield f"helix: the command is not rapidc {word}"
+
+
+def kate_problems():
+    """The name of the server is the language id that the server gets; the mode is the one of rapid.xml."""
+    servers = json.loads((EDITORS / "kate/lspclient.json").read_text(encoding="utf-8"))["servers"]
+    mode = ElementTree.parse(EDITORS / "kate/rapid.xml").getroot().get("name")
+    if list(servers) != ["rapid"]:
+        yield f"kate: the servers are {sorted(servers)}"
+    server = servers["rapid"]
+    if set(server) - KATE_SERVER:
+        yield f"kate: unknown keys {sorted(set(server) - KATE_SERVER)}"
+    if server["command"] != ["rapidc", "lsp"] or not re.search(server["highlightingModeRegex"], mode):
+        yield "kate: the command is not rapidc lsp for the mode of rapid.xml"
+    if server.get("documentLanguageId", True) is not True or set(server["settings"]) != {"rapidc"}:
+        yield "kate: the server gets no language id, or no settings of rapidc"
+
+
 def main():
     wanted = keywords()
-    problems = list(vscode_problems())
+    problems = [*vscode_problems(), *helix_problems(), *kate_problems()]
     for editor, words in (("vim", vim_words()), ("emacs", emacs_words()), ("kate", kate_words())):
         if words - CONTEXTUAL != wanted:
             problems.append(f"{editor}: missing {sorted(wanted - words)}, unknown {sorted(words - CONTEXTUAL - wanted)}")

@@ -118,6 +118,18 @@ TEST_CASE("Own origins (serve-contract 17)", "[http]") {
     CHECK_FALSE(with("127.0.0.1:80", ""));
     CHECK_FALSE(with("127.0.0.1:80", "http://127.0.0.1:81"));
     CHECK_FALSE(with("evil.example", "http://evil.example")); // a name that leads here
+    CHECK(with("127.0.0.1", "http://127.0.0.1:80")); // the port that the scheme has by itself (RFC 6454 4)
+    CHECK(with("127.0.0.1:443", "https://127.0.0.1", true));
+    CHECK_FALSE(with("127.0.0.1:443", "http://127.0.0.1"));
+    CHECK_FALSE(with("127.0.0.1:80", "ws://127.0.0.1:80")); // of an upgrade only
+    Head upgrade;
+    upgrade.headers = {{"Host", "127.0.0.1:8080"},
+                       {"Origin", "ws://127.0.0.1:8080"},
+                       {"Connection", "Upgrade"},
+                       {"Upgrade", "websocket"}};
+    CHECK(hasOwnOrigin(upgrade));
+    upgrade.secure = true;
+    CHECK_FALSE(hasOwnOrigin(upgrade));
 }
 
 TEST_CASE("Cookies are found by name", "[http]") {
