@@ -100,7 +100,7 @@ template <class Visit> void forEachFraction(const sema::ConstValue& value, const
         forEachFraction(member, visit);
 }
 
-/// The first number in the value of a byte, or of an array of bytes, that is none; null: there is none, or the type is another.
+/// The first number outside 0 to 255, or not whole, in the value of a byte or array of bytes; null for others.
 const double* wrongByte(const sema::DataType& type, const sema::ConstValue& value);
 
 /// Predefined things by name, for what hides them.
