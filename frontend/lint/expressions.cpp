@@ -25,8 +25,10 @@ bool isIdentifier(TokenKind kind) {
     return kind == TokenKind::Identifier;
 }
 
-bool isByte(const sema::Type& type) {
-    for (const sema::Type* t = &type; t; t = t->aliasOf)
+} // namespace
+
+bool isByte(const sema::DataType& type) {
+    for (const sema::Type* t = type.type; t; t = t->aliasOf)
         if (t->known == sema::KnownType::Byte) return true;
     return false;
 }
@@ -41,16 +43,10 @@ const double* firstBeyondByte(const ConstValue& value) {
     return nullptr;
 }
 
-} // namespace
-
-const double* wrongByte(const sema::DataType& type, const ConstValue& value) {
-    return type.type && isByte(*type.type) ? firstBeyondByte(value) : nullptr;
-}
-
 /// A constant that a byte gets. Data may hold any number, as byte is a num; bit functions raise ERR_ARGVALERR for it.
 void Walker::byteValue(const sema::DataType& wanted, const Expr& value) {
-    const ConstValue* known = constant(value);
-    const double* wrong = known ? wrongByte(wanted, *known) : nullptr;
+    const ConstValue* known = isByte(wanted) ? constant(value) : nullptr;
+    const double* wrong = known ? firstBeyondByte(*known) : nullptr;
     if (wrong) report(say::ByteOutOfRange, range(value), {fmt::format("{}", *wrong)});
 }
 

@@ -100,8 +100,10 @@ template <class Visit> void forEachFraction(const sema::ConstValue& value, const
         forEachFraction(member, visit);
 }
 
-/// The first number outside 0 to 255, or not whole, in the value of a byte or array of bytes; null for others.
-const double* wrongByte(const sema::DataType& type, const sema::ConstValue& value);
+/// byte, or another name of it.
+bool isByte(const sema::DataType& type);
+/// The first number outside 0 to 255, or not whole, in the value of a byte or array of bytes; null if none is.
+const double* firstBeyondByte(const sema::ConstValue& value);
 
 /// Predefined things by name, for what hides them.
 struct Predefined {

@@ -341,7 +341,8 @@ void TaskLint::data(const DataSymbol& data) {
     const bool constant = data.dataKind == DataKind::Const;
     const char* kind = constant ? "constant" : pers ? "persistent" : "variable";
     hiding(data, kind);
-    if (const double* wrong = data.init ? wrongByte(data.type, data.value()) : nullptr) {
+    const double* wrong = data.init && isByte(data.type) ? firstBeyondByte(data.value()) : nullptr;
+    if (wrong) {
         const SyntaxTree& tree = *data.module->tree;
         reporter_.report(say::ByteOutOfRange, tree, tree.range(*data.init), {fmt::format("{}", *wrong)});
     }
