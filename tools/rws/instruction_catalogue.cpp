@@ -66,7 +66,7 @@ Reply instructionsOf(service::VirtualController& controller, const Request& requ
     const auto all = subjectsOf(controller);
     const auto subject = countIn(number);
     if (!subject || *subject < 1 || *subject > all.size())
-        return Reply::refuse(ReturnCode::NotFound, "there is no category " + number);
+        return Reply::refuse(ReturnCode::NotFound, "category " + number + " does not exist");
     Document document;
     for (const sema::RoutineSymbol* routine : all[*subject - 1]->routines) {
         if (!isInstruction(*routine)) continue;

@@ -85,8 +85,7 @@ void ProgramPointers::addTo(Router& router, Subscribables& subscribables) {
         return [this, type, title, change, read](const Request& request, const Changed& changed,
                                                  Subscription& out) -> std::optional<Failure> {
             const std::string& name = request.parameter("task");
-            if (controller_.core().findTask(name) == nullptr)
-                return Failure{ReturnCode::NotFound, "There is no task " + name};
+            if (controller_.core().findTask(name) == nullptr) return unknownTask(name);
             return watchState(
                 controller_.observers(), {change},
                 [this, type, title, name, read] {

@@ -50,10 +50,14 @@ rt::Task* taskOf(service::VirtualController& controller, const Request& request)
     return controller.core().findTask(name);
 }
 
+Failure unknownTask(const std::string& name) {
+    return {ReturnCode::NotFound, "task '" + name + "' does not exist"};
+}
+
 Reply noTask(const Request& request) {
     // a path that names no task leads nowhere; a parameter that does not is wrong
     const std::string& name = request.parameter("task");
-    if (!name.empty()) return Reply::refuse(ReturnCode::NotFound, "There is no task " + name);
+    if (!name.empty()) return Reply::refuse(ReturnCode::NotFound, unknownTask(name).message);
     return badParameter("task", "the name of a task");
 }
 

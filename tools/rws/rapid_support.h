@@ -35,6 +35,8 @@ inline constexpr int64_t kMostLine = 10'000'000;
 
 /// The task that the parameter, the query or the form names "task"; null: there is none.
 rt::Task* taskOf(service::VirtualController& controller, const Request& request);
+/// 404: a task that a path names does not exist.
+Failure unknownTask(const std::string& name);
 /// 400 or 404 because of that.
 Reply noTask(const Request& request);
 

@@ -1,5 +1,6 @@
 #include "tools/rws/rare_states.h"
 
+#include "tools/rws/rapid_support.h"
 #include "tools/rws/state_watch.h"
 
 #include <fmt/format.h>
@@ -77,8 +78,7 @@ void addRareStates(service::VirtualController& controller, Subscribables& subscr
         {"/rw/rapid/tasks/{task}", "syncstatechange", false, std::nullopt,
          [&controller](const Request& request, const Changed&, Subscription& out) -> std::optional<Failure> {
              const std::string& task = request.parameter("task");
-             if (controller.core().findTask(task) == nullptr)
-                 return Failure{ReturnCode::NotFound, "There is no task " + task};
+             if (controller.core().findTask(task) == nullptr) return unknownTask(task);
              out.initial.push_back(entryOf("rap-syncstate-ev", "syncstatechange", "sync-state", "on"));
              out.watch = std::make_unique<Watch>();
              return std::nullopt;

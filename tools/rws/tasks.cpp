@@ -130,8 +130,7 @@ void Tasks::subscribe(Subscribables& subscribables) {
              [this, resource, type, changes, fill](const Request& request, const Changed& changed,
                                                    Subscription& out) -> std::optional<Failure> {
                  const std::string& name = request.parameter("task");
-                 if (!name.empty() && controller_.core().findTask(name) == nullptr)
-                     return Failure{ReturnCode::NotFound, "There is no task " + name};
+                 if (!name.empty() && controller_.core().findTask(name) == nullptr) return unknownTask(name);
                  return watchState(
                      controller_.observers(), changes,
                      [this, name, resource, type, fill] {
