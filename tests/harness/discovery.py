@@ -46,18 +46,28 @@ def discover_documents(source, found):
     found["docs/decisions"] = DecisionsTest(os.path.join(docs, "decisions"))
 
 
-def discover(source):
+def discover(source, group=None):
+    """All tests by name, or those of one group."""
     found = {}
     tests = os.path.join(source, "tests")
-    for kind in ("golden", "tasks"):
+
+    def wanted(*groups):
+        return [name for name in groups if group in (None, name)]
+
+    for kind in wanted("golden", "tasks"):
         discover_programs(os.path.join(tests, kind), kind, found)
-    discover_programs(os.path.join(source, "samples"), "samples", found)
-    for name, path in files_below(os.path.join(tests, "diag"), tests):
-        if path.endswith(SOURCE_SUFFIXES):
-            found[name] = DiagnosticTest(path)
-    for name, path in files_below(os.path.join(tests, "cli"), tests):
-        if path.endswith(".test"):
-            found[name] = CommandTest(path)
-    discover_phases(tests, found)
-    discover_documents(source, found)
+    for kind in wanted("samples"):
+        discover_programs(os.path.join(source, kind), kind, found)
+    for kind in wanted("diag"):
+        for name, path in files_below(os.path.join(tests, kind), tests):
+            if path.endswith(SOURCE_SUFFIXES):
+                found[name] = DiagnosticTest(path)
+    for kind in wanted("cli"):
+        for name, path in files_below(os.path.join(tests, kind), tests):
+            if path.endswith(".test"):
+                found[name] = CommandTest(path)
+    if wanted("phases"):
+        discover_phases(tests, found)
+    if wanted("docs"):
+        discover_documents(source, found)
     return found

@@ -108,7 +108,7 @@ std::vector<std::filesystem::path> modulesBelow(const std::string& folder) {
 } // namespace
 
 TEST_CASE("random sentences keep their tokens when formatted, and formatting is idempotent",
-          "[format][property]") {
+          "[format][property][slow]") {
     const auto grammar = test::readGrammar(readBytes(RAPIDC_SOURCE_DIR "/frontend/rapid.ebnf"));
     for (uint32_t seed = 0; seed < 800; ++seed) {
         std::mt19937 random(seed + 77);
@@ -119,7 +119,7 @@ TEST_CASE("random sentences keep their tokens when formatted, and formatting is 
     }
 }
 
-TEST_CASE("every module of this repository can be formatted", "[format][property]") {
+TEST_CASE("every module of this repository can be formatted", "[format][property][slow]") {
     size_t formatted = 0;
     for (const char* folder : {"samples", "tests", "stdlib/decl", "stdlib/data"})
         for (const auto& path : modulesBelow(folder)) {

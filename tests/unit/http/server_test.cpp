@@ -160,7 +160,7 @@ TEST_CASE("All bodies together are bounded", "[http]") {
 }
 
 TEST_CASE("A body that comes drop by drop ends the connection, a slow one that keeps the rate does not",
-          "[http]") {
+          "[http][slow]") {
     Limits limits;
     limits.progressTime = std::chrono::seconds(1);
     limits.bodyRate = 100;

@@ -94,7 +94,7 @@ TEST_CASE("warnings are the same file by file as at the end", "[lint]") {
     CHECK(seen == 4);
 }
 
-TEST_CASE("mistakes are the same for who only wants diagnostics", "[lint]") {
+TEST_CASE("mistakes are the same for who only wants diagnostics", "[lint][slow]") {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(RAPIDC_SOURCE_DIR) / "tests" / "diag"))
         if (SourceFile::isLegacyFileType(entry.path().string()) || entry.path().extension() == ".modx")

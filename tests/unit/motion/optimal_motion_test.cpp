@@ -92,7 +92,7 @@ Use useOf(const MotionSystem& system, const std::vector<Joints>& axes) {
 
 } // namespace
 
-TEST_CASE("the optimal planner keeps the limits of all axes at each ms", "[motion][optimal]") {
+TEST_CASE("the optimal planner keeps the limits of all axes at each ms", "[motion][optimal][slow]") {
 #ifdef RAPIDC_SANITIZE
     constexpr int kPrograms = 6;
 #else
@@ -213,7 +213,7 @@ TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion]
     }
 }
 
-TEST_CASE("stops and the override keep the limits and the path of the optimal planner", "[motion][optimal]") {
+TEST_CASE("stops and the override keep the limits and the path of the optimal planner", "[motion][optimal][slow]") {
     std::mt19937_64 random(10);
     for (int n = 0; n < 12; ++n) {
         const std::vector<MoveCommand> program = randomMoves(random);

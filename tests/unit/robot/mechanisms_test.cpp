@@ -126,7 +126,7 @@ TEST_CASE("a delta robot with equal arms hangs on its centre line", "[robot][kin
 }
 
 TEST_CASE("every solution of every mechanism gives the pose, and the posture is among them",
-          "[robot][kinematics]") {
+          "[robot][kinematics][slow]") {
     for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);
@@ -184,7 +184,7 @@ TEST_CASE("solutions of an offset wrist come in pairs", "[robot][kinematics]") {
 }
 
 TEST_CASE("configuration data of every mechanism name the posture they were read from",
-          "[robot][kinematics]") {
+          "[robot][kinematics][slow]") {
     for (const char* name : kMechanisms) {
         CAPTURE(name);
         const RobotModel robot = model(name);

@@ -214,7 +214,7 @@ TEST_CASE("targets of programs for the IRB 14000 have the configuration that the
 }
 
 TEST_CASE("a hundred thousand postures of seven axes come back from pose, configuration and arm angle",
-          "[robot][kinematics]") {
+          "[robot][kinematics][slow]") {
 #ifdef RAPIDC_SANITIZE
     constexpr int kPostures = 5000; // the sanitizers make each one slow
 #else

@@ -55,7 +55,7 @@ std::vector<const diag::Explanation*> all() {
 
 } // namespace
 
-TEST_CASE("examples of files and a command do what they say", "[sema][diag]") {
+TEST_CASE("examples of files and a command do what they say", "[sema][diag][slow]") {
     size_t count = 0;
     for (const diag::Explanation* e : all()) {
         if (e->kind != diag::ExampleKind::Files) continue;

@@ -55,7 +55,7 @@ TEST_CASE("the grammar uses every keyword and placeholder, and no other", "[synt
     }
 }
 
-TEST_CASE("random sentences of the grammar parse without a diagnostic", "[syntax][grammar]") {
+TEST_CASE("random sentences of the grammar parse without a diagnostic", "[syntax][grammar][slow]") {
     constexpr int kSentences = 3000;
     size_t tokens = 0;
     for (int seed = 0; seed < kSentences; ++seed) {

@@ -67,7 +67,7 @@ TEST_CASE("signs without end are one kind of mistake and bounded", "[syntax][lim
     CHECK(parsed.sink.errorCount() <= 200);
 }
 
-TEST_CASE("a million mistakes and lines of megabytes are handled", "[syntax][limits]") {
+TEST_CASE("a million mistakes and lines of megabytes are handled", "[syntax][limits][slow]") {
     const test::Parsed many = parseText(inProcedure(repeat("x := ) 1;\n", 1000000)));
     CHECK(many.sink.errorCount() == 200);
     CHECK(many.sink.all().size() == 201);
