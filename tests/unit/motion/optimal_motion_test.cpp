@@ -213,7 +213,8 @@ TEST_CASE("the optimal planner keeps the programmed speed of the TCP", "[motion]
     }
 }
 
-TEST_CASE("stops and the override keep the limits and the path of the optimal planner", "[motion][optimal][slow]") {
+TEST_CASE("stops and the override keep the limits and the path of the optimal planner",
+          "[motion][optimal][slow]") {
     std::mt19937_64 random(10);
     for (int n = 0; n < 12; ++n) {
         const std::vector<MoveCommand> program = randomMoves(random);

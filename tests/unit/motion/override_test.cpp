@@ -52,7 +52,8 @@ double distanceTo(const Vec3& point, const std::vector<Vec3>& path) {
 
 } // namespace
 
-TEST_CASE("overrides that change on lines and in corners leave the curve as it is", "[motion][override][slow]") {
+TEST_CASE("overrides that change on lines and in corners leave the curve as it is",
+          "[motion][override][slow]") {
     const std::vector<Vec3> slow = pathWith({10}, false);
     for (const bool ofProgram : {false, true}) {
         double worst = 0;

@@ -67,7 +67,8 @@ TEST_CASE("each axis turns in the documented direction", "[robot][kinematics]") 
     CHECK(y.z == Approx(1).margin(1e-12));
 }
 
-TEST_CASE("forward of inverse gives the pose, and every posture is found again", "[robot][kinematics][slow]") {
+TEST_CASE("forward of inverse gives the pose, and every posture is found again",
+          "[robot][kinematics][slow]") {
     for (const char* name : kModels) {
         CAPTURE(name);
         const RobotModel robot = model(name);
