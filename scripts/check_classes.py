@@ -44,7 +44,8 @@ def members(body):
                 statement = ""
             else:
                 statement += char
-                statement = re.sub(r"\b(public|protected|private)\s*:", "", statement)
+                if char == ":":
+                    statement = re.sub(r"\b(public|protected|private)\s*:$", "", statement)
 
 
 def is_function(member):
