@@ -72,11 +72,38 @@ template <class Point> double blendTension(const Corner& corner, const Blend<Poi
     return std::min(kSmoothTension, 0.45 * length / (blend.before + blend.after));
 }
 
+/// mm of route on which robots usually brake from the programmed speed.
+double brakingWay(const Leg& leg) {
+    constexpr double kBraking = 1e4;         // mm/s^2 of the TCP
+    constexpr double kTurningBraking = 1300; // deg/s^2 of the wrist
+    const double turning = leg.programmed.orientationSpeed, tcp = leg.programmed.tcpSpeed;
+    return leg.isTurning ? kMmPerDegree * turning * turning / kTurningBraking : tcp * tcp / kBraking;
+}
+
+/// Corner::reversalRate of a curve, with `first` and `last` mm of route per unit of the parameter at its ends. The TCP then brakes evenly
+/// up to the place of the reversal and accelerates evenly after it, on about the way that this takes from the programmed speed.
+template <class Point>
+double reversalRateOf(const Bezier<Point>& curve, double first, double last, const Leg& a, const Leg& b) {
+    constexpr double kNearly = -0.866; // cosine, of a turn by 150 degrees
+    const Point in = curve.slopeAt(0), out = curve.slopeAt(1);
+    const double sizes = std::sqrt(dot(in, in) * dot(out, out));
+    if (dot(in, out) > kNearly * sizes) return 0;
+    const double ends = 0.5 * (first + last); // falls to 0 on half of the curve
+    return std::min(std::sqrt(2 * ends * std::min(brakingWay(a), brakingWay(b))), ends);
+}
+
 bool isConnectedAxis(const Leg& leg, std::size_t axis) {
     return isConnected(leg.path->start().extax[axis]);
 }
 
 } // namespace
+
+double Corner::routeRate(double parameter, double mm) const {
+    if (reversalRate == 0) return mm;
+    const double share =
+        4 * parameter * (1 - parameter); // none at the ends, so that the speed does not jump there
+    return std::hypot(mm, reversalRate * share * share);
+}
 
 Pose Route::poseOn(const Leg& leg, double distance) {
     return leg.path->tcpAt(leg.lengths.parameterAt(distance));
@@ -114,8 +141,9 @@ void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
     const auto rate = [&](double x) {
         // On a leg where turning counts the unit of the route changes steadily, too.
         const double perMm = isScaled ? a.perMm + (b.perMm - a.perMm) * smoothStep(x) : 1;
-        return perMm * norm(corner.space.slopeAt(x));
+        return corner.routeRate(x, perMm * norm(corner.space.slopeAt(x)));
     };
+    if (!corner.isSmooth) corner.reversalRate = reversalRateOf(corner.space, rate(0), rate(1), a, b);
     corner.lengths = LengthMap::measured(rate, kCornerPieces, corner.isSmooth);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }
@@ -170,8 +198,10 @@ void Route::measureAxesCurve(Corner& corner, const Leg& a, const Leg& b) {
     const bool isShared = corner.isSmooth && !sameTool(a.path->frames(), b.path->frames());
     const auto rate = [&](double x) {
         const double second = rateOf(b, x);
-        return isShared ? second + (1 - smoothStep(x)) * (rateOf(a, x) - second) : second;
+        return corner.routeRate(x,
+                                isShared ? second + (1 - smoothStep(x)) * (rateOf(a, x) - second) : second);
     };
+    if (!corner.isSmooth) corner.reversalRate = reversalRateOf(corner.axes, rate(0), rate(1), a, b);
     corner.lengths = LengthMap::measured(rate, kAxesPieces, corner.isSmooth);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }

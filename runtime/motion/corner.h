@@ -58,6 +58,13 @@ struct AxisVector {
         return a;
     }
     friend AxisVector operator-(const AxisVector& a, const AxisVector& b) { return a + b * -1.0; }
+    /// Axes that are not connected have no angle.
+    friend double dot(const AxisVector& a, const AxisVector& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.v.size(); ++i)
+            if (std::isfinite(a.v[i] * b.v[i])) sum += a.v[i] * b.v[i];
+        return sum;
+    }
 };
 
 /// A quantity that leaves the course of the first leg some way before the corner and joins that of the second some way
@@ -126,6 +133,9 @@ struct Corner {
     double before = 0, after = 0; ///< mm of path cut off the two legs
     double begin = 0;             ///< place on the route
     LengthMap lengths;            ///< of the curve
+    /// Where the path turns back on itself: mm of route per unit of the parameter half way along the curve, at least; 0 elsewhere.
+    /// The TCP comes to rest there, and with mm of TCP path alone its speed would change from one moment to the next.
+    double reversalRate = 0;
     Bezier<Vec3> space;
     Bezier<AxisVector> axes;
     Quat centre;         ///< orientation at the programmed point
@@ -133,6 +143,8 @@ struct Corner {
     double armAngle = 0; ///< seven axes: arm angle at the programmed point, deg
     Blend<AxisVector>
         external; ///< external axes and, in the place of the first one, the arm angle of seven axes
+    /// mm of route per unit of the parameter where the TCP covers `mm`.
+    double routeRate(double parameter, double mm) const;
     double length() const { return kind == CornerKind::None ? 0 : lengths.length(); }
     double end() const { return begin + length(); }
     double halfLength = 0; ///< mm of the curve up to the middle of its parameter

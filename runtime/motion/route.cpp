@@ -34,18 +34,6 @@ Radii radiiOn(const Leg& leg, const ZoneData& zone) {
     return {std::min(r.tcp, half), std::min(r.turn, half), std::min(r.external, half)};
 }
 
-double product(const Vec3& a, const Vec3& b) {
-    return dot(a, b);
-}
-
-/// Axes that are not connected have no angle.
-double product(const AxisVector& a, const AxisVector& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.v.size(); ++i)
-        if (std::isfinite(a.v[i] * b.v[i])) sum += a.v[i] * b.v[i];
-    return sum;
-}
-
 /// Place where the first of the curve and the blends of a corner begins.
 double zoneBegin(const Corner& corner) {
     double begin = corner.begin;
@@ -205,9 +193,8 @@ void Route::addBends(const Corner& corner, double from, double to, std::vector<d
         constexpr double kRest =
             1e-12; // of the squares: the point of rest where the path turns back on itself
         const auto first = curve.slopeAt(from), last = curve.slopeAt(to);
-        const double a = product(first, first), b = product(last, last);
-        return std::min(a, b) <= kRest * std::max(a, b) ||
-               product(first, last) < kLeastCosine * std::sqrt(a * b);
+        const double a = dot(first, first), b = dot(last, last);
+        return std::min(a, b) <= kRest * std::max(a, b) || dot(first, last) < kLeastCosine * std::sqrt(a * b);
     };
     const bool bends = corner.kind == CornerKind::Space ? isBent(corner.space) : isBent(corner.axes);
     if (!bends || to - from < kLeastPart) return;
@@ -264,7 +251,8 @@ std::vector<double> Route::bordersFrom(double from) const {
         for (int k = 1; k < kStretchesInZone; ++k)
             add(c.begin + c.length() * k / kStretchesInZone);
         std::vector<double> bends;
-        for (int k = 0; k < kStretchesInZone && (isSmooth_ || c.kind == CornerKind::Joint); ++k) {
+        for (int k = 0;
+             k < kStretchesInZone && (isSmooth_ || c.kind == CornerKind::Joint || c.reversalRate > 0); ++k) {
             const double begin = static_cast<double>(k) / kStretchesInZone,
                          end = static_cast<double>(k + 1) / kStretchesInZone;
             if (isSmooth_)
@@ -335,7 +323,14 @@ std::optional<double> Route::curveRate(std::size_t own, bool inCorner) const {
 
 std::optional<double> Route::curveRateAt(double place) const {
     const std::size_t own = ownLeg(place);
-    return curveRate(own, place > leg(own).end() && isRounded(own));
+    const bool inCorner = place > leg(own).end() && isRounded(own);
+    if (inCorner && corner(own).kind == CornerKind::Space && corner(own).reversalRate > 0) {
+        const Corner& c = corner(own);
+        const double x = c.lengths.parameterAt(place - c.begin);
+        const double mm = norm(c.space.slopeAt(x));
+        return mm / c.routeRate(x, mm);
+    }
+    return curveRate(own, inCorner);
 }
 
 bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
@@ -347,6 +342,7 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     stretch.leg = legAt(middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
+    stretch.isReversal = inCorner && corner(own).reversalRate > 0;
     std::optional<Pose> beforeTcp, hereTcp, afterTcp;
     stretch.middle = pointAt(middle, &seed, &hereTcp);
     const RoutePoint low = pointAt(middle - step, &stretch.middle.joints, &beforeTcp);
@@ -369,6 +365,11 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
         stretch.tcpRate = std::max(norm(to - from) / (2 * close), norm(after.pos - before.pos) / (2 * step));
         if (inCorner) // where the tool turns back, it is slow in the middle and fast beside it
             stretch.tcpRate = std::max(stretch.tcpRate, meanRate(stretch.begin, stretch.end, tcpNear));
+        if (stretch.isReversal) { // speed that it allows there only would be averaged over its neighbourhood
+            const Corner& c = corner(own);
+            stretch.tcpRate = std::max({stretch.tcpRate, meanRate(c.begin, c.begin + close, tcpNear),
+                                        meanRate(c.end() - close, c.end(), tcpNear)});
+        }
         const FrameSetup& earlier = l.path->frames();
         if (inCorner && !sameTool(earlier, frames)) { // neither tool centre point may be too fast
             const auto place = [&](const RoutePoint& point) {

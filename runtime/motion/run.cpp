@@ -174,17 +174,20 @@ std::size_t Run::limitStretches(std::size_t from) {
         const RouteStretch& s = stretches[k];
         limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
-        limits_.back().ownSpeed = limits_.back().speed;
-        if (!s.isAxesCorner) limits_.back().axisSpeed = kUnlimited; // no dip that is widened
+        StretchLimits& added = limits_.back();
+        added.ownSpeed = added.speed;
+        if (!s.isAxesCorner) added.axisSpeed = kUnlimited; // no dip that is widened
+        if (s.isReversal) added.axisSpeed = std::min(added.axisSpeed, std::sqrt(added.bendSquare));
     }
     return widenDips(from);
 }
 
-/// Averaging in time would pass over a short place in a corner between joint moves where an axis turns fast: around it, as far as the windows reach, the speed
-/// exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
+/// Averaging in time would pass over a short place in a corner between joint moves where an axis turns fast, or where the path turns back on
+/// itself: around it, as far as the windows reach, the speed exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
 /// their place had lowered have their own speeds again. The first stretch whose speed has changed, at most `from`.
 std::size_t Run::widenDips(std::size_t from) {
     constexpr double kExcess = 1.25;
+    constexpr double kReversalShare = 0.35; // the rest of the windows adds little to the speed there
     const auto& stretches = route_.stretches();
     if (from >= limits_.size()) return from;
     const double halfWindow = 0.5 * (settings_.longWindow + settings_.shortWindow);
@@ -205,7 +208,7 @@ std::size_t Run::widenDips(std::size_t from) {
     };
     const auto widen = [&](std::size_t dip) {
         const double speed = kExcess * limits_[dip].axisSpeed;
-        const double reach = speed * halfWindow;
+        const double reach = speed * halfWindow * (stretches[dip].isReversal ? kReversalShare : 1);
         for (std::size_t i = dip; i > 0 && stretches[i - 1].end > stretches[dip].begin - reach; --i)
             lower(i - 1, speed);
         for (std::size_t i = dip + 1; i < limits_.size() && stretches[i].begin < stretches[dip].end + reach;

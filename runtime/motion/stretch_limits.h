@@ -20,7 +20,7 @@ struct StretchLimits {
     double width = 0;          ///< mm
     double speed = 0;          ///< mm/s of route at full override
     double ownSpeed = 0;       ///< the same, before dips nearby lower it
-    double axisSpeed = 0;      ///< the same, as the speeds of the axes alone allow on this stretch
+    double axisSpeed = 0;      ///< the same, as the axes alone allow on this stretch
     double bendSquare = 0;     ///< (mm/s)^2, as the axes must turn with the path
     double gain = 0, drop = 0; ///< mm/s^2 along the route
     std::array<AccelerationRow, 14> rows{};
