@@ -133,8 +133,8 @@ struct Corner {
     double before = 0, after = 0; ///< mm of path cut off the two legs
     double begin = 0;             ///< place on the route
     LengthMap lengths;            ///< of the curve
-    /// Where the path turns back on itself: mm of route per unit of the parameter half way along the curve, at least; 0 elsewhere.
-    /// The TCP comes to rest there, and with mm of TCP path alone its speed would change from one moment to the next.
+    /// Least mm of route per unit of the parameter half way along the curve; 0 unless the path turns back on itself. The TCP comes to rest
+    /// there: with mm of TCP path alone its velocity would change from one moment to the next.
     double reversalRate = 0;
     Bezier<Vec3> space;
     Bezier<AxisVector> axes;
