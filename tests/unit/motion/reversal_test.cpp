@@ -18,13 +18,11 @@ namespace {
 constexpr TimeNs kSample = 1'000'000;
 constexpr double kSampleSeconds = 1e-9 * static_cast<double>(kSample);
 
-/// What a program does after its first 0.1 s and before its end.
+/// Figures of the execution of a program.
 struct Execution {
     double seconds = 0;
-    double
-        fastest = 0,
-        slowest =
-            1e300; ///< mm/s of the TCP; the slowest between the two times at which it has moved a tenth of its way
+    double fastest = 0;      ///< mm/s of the TCP
+    double slowest = 1e300;  ///< the same, in the middle half of the time
     double acceleration = 0; ///< largest of an axis, as a share of its limit in that pose
 };
 
@@ -52,8 +50,8 @@ Execution executed(MotionSystem& system, const std::vector<MoveCommand>& program
         accelerations.limitsAt(last[1].joints, most);
         for (std::size_t i = 0; i < most.size(); ++i) {
             const double change = last[2].joints[i] - 2 * last[1].joints[i] + last[0].joints[i];
-            execution.acceleration =
-                std::max(execution.acceleration, std::abs(change) / (kSampleSeconds * kSampleSeconds * most[i]));
+            execution.acceleration = std::max(execution.acceleration,
+                                              std::abs(change) / (kSampleSeconds * kSampleSeconds * most[i]));
         }
     }
     execution.seconds = 1e-9 * static_cast<double>(system.now() - begin);
