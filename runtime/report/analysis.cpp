@@ -114,11 +114,24 @@ class MoveAnalysis {
         upTo_ = steps_.size() - static_cast<std::size_t>(last - steps_.rbegin());
         const std::size_t before = steps_.front().to - 1;
         startsAtRest_ = before == 0 || !hasMoved(samples_[before - 1], samples_[before]) ||
-                        steps_.front().ratio < kAtRest * largest;
+                        (steps_.front().ratio < kAtRest * largest && !turnsBackFlyingBy(before));
         const std::size_t after = steps_.back().to;
         endsAtRest_ = move_.stopPoint || after + 1 >= samples_.size() ||
                       !hasMoved(samples_[after], samples_[after + 1]) ||
-                      steps_.back().ratio < kAtRest * largest;
+                      (steps_.back().ratio < kAtRest * largest && !turnsBackFlyingBy(after));
+    }
+
+    /// The TCP is at rest for a moment only, because its path turns back on itself in a zone.
+    bool turnsBackFlyingBy(std::size_t sample) const {
+        const std::size_t first = std::max<std::size_t>(sample, 2) - 1;
+        const auto* ending = record_.find(samples_[first - 1].move);
+        if (ending == nullptr || ending->stopPoint) return false;
+        for (std::size_t i = first; i <= sample + 1 && i + 1 < samples_.size(); ++i) {
+            const motion::Vec3 before = samples_[i].position - samples_[i - 1].position;
+            const motion::Vec3 after = samples_[i + 1].position - samples_[i].position;
+            if (dot(before, after) < 0) return true;
+        }
+        return false;
     }
 
     Loss limitOf(std::size_t k) const {

@@ -251,6 +251,30 @@ TEST_CASE("slower round a fly-by point is the zone's doing", "[report]") {
     CHECK(lostTo(analysis.moves[0], Cause::StopPoint) == Approx(0.05).margin(0.005));
 }
 
+TEST_CASE("a path that turns back on itself stops for its zone, unless it ends at a stop point", "[report]") {
+    for (const bool isStop : {false, true}) {
+        CAPTURE(isStop);
+        RobotRecord record;
+        record.robot = simpleRobot();
+        for (uint64_t number : {1, 2}) {
+            record.moves.push_back(moveNumber(number, 200));
+            record.moves.back().stopPoint = isStop || number == 2;
+            record.moves.back().zone = 10;
+            addMotion(record, number, 1, ramped(200, 1), slowly());
+        }
+        const double tip = 180; // mm, 1 s at 200 mm/s less the two ramps
+        for (Sample& sample : record.samples)
+            if (sample.move == 2) sample.position.x = 2 * tip - sample.position.x;
+        const Analysis analysis = analyse(record);
+        REQUIRE(analysis.moves.size() == 2);
+        // 0.1 s at half the speed on average, at both ends of both movements.
+        CHECK(lostTo(analysis.moves[0], Cause::Zone) == Approx(isStop ? 0 : 0.05).margin(0.005));
+        CHECK(lostTo(analysis.moves[1], Cause::Zone) == Approx(isStop ? 0 : 0.05).margin(0.005));
+        CHECK(lostTo(analysis.moves[0], Cause::StopPoint) == Approx(isStop ? 0.1 : 0.05).margin(0.005));
+        CHECK(lostTo(analysis.moves[1], Cause::StopPoint) == Approx(isStop ? 0.1 : 0.05).margin(0.005));
+    }
+}
+
 // ---- Recordings ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("columns of a recording are found by lenient names, with units", "[report]") {
