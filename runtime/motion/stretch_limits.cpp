@@ -53,8 +53,13 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
         const double across = std::min(square * std::abs(s.curvature) / most.worldAcceleration, kWorldShare);
         add(s.tcpRate, 0, std::sqrt(1 - across * across) * most.worldAcceleration);
     }
-    l.gain = atMost(most.pathAcceleration, s.tcpRate);
-    l.drop = atMost(most.pathDeceleration, s.tcpRate);
+    // Where the path turns back on itself the TCP brakes and accelerates although the speed along the route remains: half of the
+    // limit for that, half for changes of the speed.
+    const double share = s.isReversal ? 0.5 : 1;
+    const double braking = std::min(most.pathAcceleration, most.pathDeceleration);
+    if (s.isReversal) l.bendSquare = std::min(l.bendSquare, atMost(share * braking, s.curvature));
+    l.gain = atMost(share * most.pathAcceleration, s.tcpRate);
+    l.drop = atMost(share * most.pathDeceleration, s.tcpRate);
     return l;
 }
 

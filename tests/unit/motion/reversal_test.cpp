@@ -21,9 +21,10 @@ constexpr double kSampleSeconds = 1e-9 * static_cast<double>(kSample);
 /// Figures of the execution of a program.
 struct Execution {
     double seconds = 0;
-    double fastest = 0;      ///< mm/s of the TCP
-    double slowest = 1e300;  ///< the same, in the middle half of the time
-    double acceleration = 0; ///< largest of an axis, as a share of its limit in that pose
+    double fastest = 0;         ///< mm/s of the TCP
+    double slowest = 1e300;     ///< the same, in the middle half of the time
+    double acceleration = 0;    ///< largest of an axis, as a share of its limit in that pose
+    double tcpAcceleration = 0; ///< mm/s^2
 };
 
 MotionSystem largeRobot() {
@@ -46,6 +47,9 @@ Execution executed(MotionSystem& system, const std::vector<MoveCommand>& program
         std::rotate(last.begin(), last.begin() + 1, last.end());
         last[2] = system.current();
         speeds.push_back(norm(last[2].tcp.pos - last[1].tcp.pos) / kSampleSeconds);
+        const Vec3 bend = last[2].tcp.pos - last[1].tcp.pos * 2.0 + last[0].tcp.pos;
+        execution.tcpAcceleration =
+            std::max(execution.tcpAcceleration, norm(bend) / (kSampleSeconds * kSampleSeconds));
         Joints most = last[1].joints;
         accelerations.limitsAt(last[1].joints, most);
         for (std::size_t i = 0; i < most.size(); ++i) {
@@ -121,6 +125,21 @@ TEST_CASE("a reversal in a zone takes no longer than one at a stop point", "[mot
             CHECK(executed({MoveKind::Linear, 180, speed, zone}).seconds <=
                   executed({MoveKind::Linear, 180, speed, zone}, true).seconds * kNearly);
         }
+}
+
+TEST_CASE("PathAccLim and WorldAccLim hold where a path turns back on itself", "[motion][reversal]") {
+    // 1 m/s^2; the speed exceeds the one that keeps it by a quarter at most.
+    const bool isPath = GENERATE(true, false);
+    MotionSystem system = largeRobot();
+    std::vector<MoveCommand> program = programOf(system, {MoveKind::Linear, 180, 500, 50}, false);
+    for (MoveCommand& command : program)
+        (isPath ? command.settings.pathAcceleration : command.settings.worldAcceleration) = 1;
+    if (isPath)
+        for (MoveCommand& command : program)
+            command.settings.pathDeceleration = 1;
+    const Execution execution = executed(system, program);
+    CHECK(execution.tcpAcceleration <= 1000 * 1.25 * 1.25);
+    CHECK(execution.tcpAcceleration >= 950);
 }
 
 TEST_CASE("the speed of the TCP holds through corners that do not turn back", "[motion][reversal]") {
