@@ -139,6 +139,7 @@ class Route {
     void addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const;
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, const Joints& seed) const;
+    bool passesSmoothly(const RouteStretch& before, const RouteStretch& after) const;
     bool isShaped(double place) const;
     std::optional<Pose> userFrameAt(double place) const;
     Pose flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes, double place) const;

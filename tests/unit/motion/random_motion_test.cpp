@@ -172,6 +172,38 @@ std::vector<double> runProgram(MotionSystem& system, const std::vector<MoveComma
     return speeds;
 }
 
+/// Executes the random program of a seed and checks what holds for every program. Whether an axis exceeds its speed for a moment.
+bool exceedsShortly(uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const std::vector<MoveCommand> program = randomProgram(random);
+    MotionSystem system = smallRobot();
+    const robot::RobotModel& model = system.model();
+    Joints before = system.current().joints;
+    double fastest = 0;
+    double axes = 0; // highest speed of an axis as a share of its limit
+    TimeNs when = 0;
+    const auto speeds = runProgram(system, program, [&] {
+        const MotionState state = system.current();
+        if (!(state.tcpSpeed <= fastest)) {
+            fastest = state.tcpSpeed;
+            when = system.now();
+        }
+        for (std::size_t i = 0; i < before.size(); ++i)
+            axes = std::max(axes, std::abs(state.joints[i] - before[i]) / (model.maxSpeed[i] * 0.004));
+        before = state.joints;
+    });
+    if (speeds.size() == 1) return false; // no move was possible
+    INFO("fastest at " << when);
+    CHECK(fastest <= *std::max_element(speeds.begin(), speeds.end()) * 1.005);
+    // The average over time lets an axis exceed its limit where the speed would have to dip for a moment only.
+    CHECK(axes <= 1.5);
+    const Joints end = system.plannedEnd().robax;
+    for (std::size_t i = 0; i < end.size(); ++i)
+        CHECK(system.current().joints[i] == Approx(end[i]).margin(1e-6));
+    CHECK(system.status(static_cast<MoveId>(speeds.size()) - 1) == MoveStatus::Done);
+    return axes > 1.03;
+}
+
 } // namespace
 
 TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]") {
@@ -196,36 +228,15 @@ TEST_CASE("random programs keep speeds and reach their ends", "[motion][random]"
         const uint64_t drawn = random();
         const uint64_t seed = n == 0 && firstSeed != nullptr ? std::strtoull(firstSeed, nullptr, 10) : drawn;
         INFO("seed " << seed << ": ./dev soak 1 --seed=" << seed);
-        random.seed(seed);
-        const std::vector<MoveCommand> program = randomProgram(random);
-        MotionSystem system = smallRobot();
-        const robot::RobotModel& model = system.model();
-        Joints before = system.current().joints;
-        double fastest = 0;
-        double axes = 0; // highest speed of an axis as a share of its limit
-        TimeNs when = 0;
-        const auto speeds = runProgram(system, program, [&] {
-            const MotionState state = system.current();
-            if (!(state.tcpSpeed <= fastest)) {
-                fastest = state.tcpSpeed;
-                when = system.now();
-            }
-            for (std::size_t i = 0; i < before.size(); ++i)
-                axes = std::max(axes, std::abs(state.joints[i] - before[i]) / (model.maxSpeed[i] * 0.004));
-            before = state.joints;
-        });
-        if (speeds.size() == 1) continue; // no move was possible
-        INFO("program " << n << ", fastest at " << when);
-        CHECK(fastest <= *std::max_element(speeds.begin(), speeds.end()) * 1.005);
-        // The average over time lets an axis exceed its limit where the speed would have to dip for a moment only.
-        CHECK(axes <= 1.5);
-        if (axes > 1.03) ++above;
-        const Joints end = system.plannedEnd().robax;
-        for (std::size_t i = 0; i < end.size(); ++i)
-            CHECK(system.current().joints[i] == Approx(end[i]).margin(1e-6));
-        CHECK(system.status(static_cast<MoveId>(speeds.size()) - 1) == MoveStatus::Done);
+        if (exceedsShortly(seed)) ++above;
     }
     CHECK(above <= 1 + count / 500);
+}
+
+TEST_CASE("a corner past the meeting point of two configurations keeps the speeds of the axes",
+          "[motion][random]") {
+    // Found by ./dev soak: the wrist centre passed axis 1 within micrometres in a corner, and the axis turned by 40 degrees and back in 1 ms.
+    exceedsShortly(2996029668147665467);
 }
 
 TEST_CASE("random programs of every mechanism keep speeds and reach their ends", "[motion][random]") {
