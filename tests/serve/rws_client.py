@@ -80,7 +80,7 @@ def _entry_of_json(item):
         if isinstance(value, list):
             nested += [_entry_of_json(inner) for inner in value]
         elif name not in ("_links", "_type", "_title"):
-            values[name] = value
+            values[name] = value if isinstance(value, str) else json.dumps(value)  # signals of RWS 1.0
     return Entry(item.get("_type"), item.get("_title"), values, links, nested)
 
 

@@ -26,7 +26,7 @@ PROGRAM = r"""MODULE Guided
     EGMGetId process;
     EGMSetupUC ROB_1, process, "default", "EGMSensor:" \Joint \CommTimeout:=5;
     EGMActJoint process \MaxSpeedDeviation:=20;
-    EGMRunJoint process, EGM_STOP_HOLD;
+    EGMRunJoint process, EGM_STOP_HOLD \J1 \CondTime:=600;
   ENDPROC
 ENDMODULE
 """

@@ -93,6 +93,18 @@ class Io(ServeCase):
                         self.assertRegex(address, rf"^{kind}/[^?]+{re.escape(query)}$")
                         self.assertEqual(client.get("/rw/iosystem/" + address).entries()[0].title, entry.title)
 
+    def test_values_in_json(self):
+        """Recorded answers of controllers with RobotWare 6: in JSON the value is a number in the list of signals, and a text where one
+        signal is read."""
+        client = self.client(1)
+        for name, text, number in (("doFlag", "1", 1), ("goByte", "200", 200), ("aoSpeed", "2.5", 2.5)):
+            self.assertEqual(self.set(client, name, text).status, 204)
+            listed = {state["name"]: state["lvalue"] for state in client.get(SIGNALS + "?json=1").json()["_embedded"]["_state"]}
+            self.assertEqual(listed[name], number)
+            self.assertNotIsInstance(listed[name], str)
+            one = client.get(f"{SIGNALS}/{name}?json=1").json()["_embedded"]["_state"][0]
+            self.assertEqual(one["lvalue"], text)
+
     def test_titles(self):
         """Line 24: net/dev/name with a device, the bare name without one; both addresses."""
         for client in self.both():

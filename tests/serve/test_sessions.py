@@ -81,6 +81,14 @@ class Digest(ServeCase):
         authorization = client.digest(self.challenge(client), "GET", "/rw/panel/ctrlstate")
         self.assertEqual(self.answer(client, authorization).status, 401)
 
+    def test_the_uri_may_be_without_the_query(self):
+        """A published client (abbrws of Rust) signs the path alone."""
+        target = "/rw/iosystem/signals?json=1"
+        for uri, status in (("/rw/iosystem/signals", 200), (target, 200), ("/rw/iosystem/signals?json=0", 401), ("/rw/iosystem", 401)):
+            client = self.client()
+            headers = {"Authorization": client.digest(self.challenge(client), "GET", uri)}
+            self.assertEqual(client.send("GET", target, headers=headers).status, status, uri)
+
     def test_wrong_answers(self):
         client = self.client(password="wrong")
         self.assertEqual(client.get(PATH).status, 401)

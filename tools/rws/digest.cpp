@@ -112,11 +112,13 @@ DigestGuard::Verdict DigestGuard::judge(const Fields& fields, std::string_view m
     const std::string& algorithm = fieldOf(fields, "algorithm");
     const std::string& nonce = fieldOf(fields, "nonce");
     const std::string& response = fieldOf(fields, "response");
-    if (secret.empty() || fieldOf(fields, "realm") != kRealm || fieldOf(fields, "uri") != target)
+    const std::string& uri = fieldOf(fields, "uri"); // some clients leave the query out
+    if (secret.empty() || fieldOf(fields, "realm") != kRealm ||
+        (uri != target && uri != target.substr(0, target.find('?'))))
         return Verdict::Wrong;
     if (!algorithm.empty() && !sameText(algorithm, "MD5")) return Verdict::Wrong;
     if (!qop.empty() && !sameText(qop, "auth")) return Verdict::Wrong;
-    const std::string operation = http::md5Hex(fmt::format("{}:{}", method, target));
+    const std::string operation = http::md5Hex(fmt::format("{}:{}", method, uri));
     const std::string& counterText = fieldOf(fields, "nc");
     const std::string expected =
         qop.empty() ? http::md5Hex(fmt::format("{}:{}:{}", secret, nonce, operation))

@@ -75,6 +75,8 @@ struct Entry {
     bool isNestedOnlyInJson =
         false; ///< where the spans of XHTML say the same, and clients take each li for an entry
 
+    std::string numberInJson = {}; ///< the value that is a number and no text in JSON of RWS 1.0; "" = none
+
     Entry& value(std::string name, std::string text) {
         values.emplace_back(std::move(name), std::move(text));
         return *this;

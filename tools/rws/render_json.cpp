@@ -21,6 +21,15 @@ std::string selfOf(const Entry& entry, const RenderContext& context) {
     return self;
 }
 
+Json valueOf(const Entry& entry, const std::string& name, const std::string& text,
+             const RenderContext& context) {
+    if (context.dialect == Dialect::V1 && name == entry.numberInJson) {
+        Json number = Json::parse(text, nullptr, false);
+        if (number.is_number()) return number;
+    }
+    return cleanText(text);
+}
+
 Json objectOf(const Entry& entry, const RenderContext& context) {
     Json links = Json::object();
     if (!entry.self.empty()) links["self"] = href(selfOf(entry, context));
@@ -31,7 +40,7 @@ Json objectOf(const Entry& entry, const RenderContext& context) {
     object["_type"] = entry.type;
     object["_title"] = cleanText(entry.title);
     for (const auto& [name, value] : entry.values)
-        object[name] = cleanText(value);
+        object[name] = valueOf(entry, name, value, context);
     if (!entry.nestedName.empty()) {
         Json list = Json::array();
         for (const Entry& nested : entry.nested)

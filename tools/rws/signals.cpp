@@ -84,7 +84,8 @@ Reply Signals::list(const Request& request, const std::vector<rt::SignalId>& sig
     document.place = Document::Place::Resources;
     document.next = page.next;
     for (std::size_t i = page.begin; i < page.end; ++i)
-        describe(io(), signals[i], document.add("ios-signal-li", signalTitle(io(), signals[i])));
+        describe(io(), signals[i], document.add("ios-signal-li", signalTitle(io(), signals[i])))
+            .numberInJson = "lvalue"; // in lists only, as controllers answer
     return Reply::of(std::move(document));
 }
 

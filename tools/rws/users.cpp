@@ -79,7 +79,11 @@ void Users::subscribe(Subscribables& subscribables) {
 void Users::addTo(Router& router, Subscribables& subscribables) {
     subscribe(subscribables);
     router.getBoth("/users", [this](const Request& request) { return list(request); });
-    router.postBoth("/users", [this](const Request& request) { return registerPerson(request); });
+    router.postBoth("/users", [this](const Request& request) {
+        Reply reply = registerPerson(request);
+        if (request.dialect == Dialect::V1 && reply.status == 200) reply.status = 201;
+        return reply;
+    });
     router.action("/users", "set-locale", [this](const Request& request) { return registerPerson(request); });
     router.action("/users", "impersonate", [](const Request&) {
         return Reply::refuse(ReturnCode::Rejected, "A client cannot take the place of another user");
@@ -188,7 +192,7 @@ Reply Users::list(const Request& request) const {
     return Reply::of(std::move(document));
 }
 
-/// 200, with a body, because clients take nothing else (controller.md 8).
+/// With a body, because clients take no 204 (controller.md 8).
 Reply Users::registerPerson(const Request& request) {
     Person person = personOf(*request.session);
     const auto take = [&](const char* name, std::string& into) {

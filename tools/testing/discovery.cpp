@@ -46,8 +46,16 @@ std::string readSeconds(const std::string& value, std::optional<double>& seconds
     return {};
 }
 
-/// Takes one directive; "" or what is wrong with it.
-std::string takeDirective(TestCase& test, const std::string& key, const std::string& value) {
+/// A line of the stimulus, with the number that it has in the module, so that a message about it names that one.
+void addStimulusLine(TestCase& test, const std::string& text, std::ptrdiff_t line) {
+    const auto before = std::count(test.stimulusLines.begin(), test.stimulusLines.end(), '\n');
+    if (line - 1 > before) test.stimulusLines.append(static_cast<std::size_t>(line - 1 - before), '\n');
+    test.stimulusLines += text + "\n";
+}
+
+/// Takes one directive, which is in this line of the module; "" or what is wrong with it.
+std::string takeDirective(TestCase& test, const std::string& key, const std::string& value,
+                          std::ptrdiff_t line) {
     if (key == "skip") {
         test.skip = value.empty() ? "skipped by its comment" : value;
         return {};
@@ -64,7 +72,7 @@ std::string takeDirective(TestCase& test, const std::string& key, const std::str
     }
     if (key == "stimulus") {
         if (value.find(',') != std::string::npos)
-            test.stimulusLines += value + "\n";
+            addStimulusLine(test, value, line);
         else
             test.stimulusFile = (fs::path(test.file).parent_path() / value).string();
         return {};
@@ -76,6 +84,7 @@ std::string takeDirective(TestCase& test, const std::string& key, const std::str
 void readDirectives(const Module& module, const RoutineSymbol& routine, TestCase& test) {
     std::string_view comment = rapid::syntax::leadingTrivia(*module.tree, *routine.routineDecl);
     while (!comment.empty()) {
+        const std::ptrdiff_t number = test.line - std::count(comment.begin(), comment.end(), '\n');
         const std::size_t end = std::min(comment.find('\n'), comment.size());
         const std::string line(trimmed(comment.substr(0, end)));
         comment.remove_prefix(std::min(end + 1, comment.size()));
@@ -86,7 +95,7 @@ void readDirectives(const Module& module, const RoutineSymbol& routine, TestCase
         const std::string value(colon == std::string::npos
                                     ? std::string_view()
                                     : trimmed(std::string_view(line).substr(colon + 1)));
-        if (const std::string problem = takeDirective(test, key, value);
+        if (const std::string problem = takeDirective(test, key, value, number);
             !problem.empty() && test.problem.empty())
             test.problem = fmt::format("the comment '{}': {}", line, problem);
     }

@@ -123,7 +123,7 @@ std::string humanTotals(const Totals& totals) {
 }
 
 std::string tapHead(std::size_t tests) {
-    return fmt::format("TAP version 14\n1..{}\n", tests);
+    return fmt::format("TAP version 13\n1..{}\n", tests);
 }
 
 std::string tapText(std::size_t number, const TestCase& test, const TestResult& result) {

@@ -1,5 +1,5 @@
 #pragma once
-// Results of tests as text: for people, TAP version 14, JUnit XML, JSON.
+// Results of tests as text: for people, TAP version 13, JUnit XML, JSON.
 
 #include "tools/testing/test_case.h"
 #include "tools/testing/test_result.h"

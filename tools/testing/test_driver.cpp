@@ -31,8 +31,10 @@ Spot spotOf(const rt::SourcePlace& place) {
 /// Leads a task through the phases and notes how they end. A service of the controller.
 class Driver final : public rt::DebugClient {
   public:
+    /// `endsOthers`: at the end of the test the other tasks, which may execute for ever, are not waited for.
     void begin(rt::Controller& controller, const TestCase& test,
-               std::array<rt::EntryFunction, kPhases> routines) {
+               std::array<rt::EntryFunction, kPhases> routines, bool endsOthers) {
+        endsOthers_ = endsOthers;
         controller_ = &controller;
         test_ = &test;
         routines_ = routines;
@@ -56,6 +58,7 @@ class Driver final : public rt::DebugClient {
             if (phase_ == Phase::Test) judgeExpectedError(false, {});
         }
         isComplete_ = true;
+        if (endsOthers_) controller_->debugger().quit();
         return rt::kOk;
     }
 
@@ -229,6 +232,7 @@ class Driver final : public rt::DebugClient {
     bool isDecided_ = false;      // result_ has what ended the test
     bool isFailureNoted_ = false; // of the record
     bool isComplete_ = false;     // every phase came to its end
+    bool endsOthers_ = false;
     rt::Event lastError_;
     Spot limitSpot_;
     std::string limit_;
@@ -324,7 +328,7 @@ TestResult runTest(const TestProgram& program, const TestCase& test, rt::ModuleL
         return result;
     }
     auto& driver = controller.service<Driver>();
-    driver.begin(controller, test, routines);
+    driver.begin(controller, test, routines, program.withOtherTasks);
     if (program.withCoverage) counts.attach(controller);
     const rt::ExitStatus status = controller.run();
     std::fflush(stdout);

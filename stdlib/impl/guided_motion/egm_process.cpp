@@ -352,8 +352,15 @@ void EgmProcess::followOn(Time now) {
     if (partner_ && partner_->answers() && now - lastAnswer_ >= timeout_) {
         controller_.log().write(EventId::EgmNoData, &owner_,
                                 {partner_->name(), "EGMSetupUC", fmt::format("{:g}", toSeconds(timeout_))});
-        timedOut_ = true;
-        return finish();
+        const bool isFatal = order_->continues;
+        timedOut_ = !isFatal;
+        finish();
+        if (isFatal) {
+            controller_.log().write(EventId::EgmStopsProgram, &owner_);
+            owner_.stop(StopCause::Error);
+            controller_.taskFailed(owner_);
+        }
+        return;
     }
     const double rampIn = order_->rampIn;
     arm_->follow(data_, rampIn > 0 ? std::min(1.0, toSeconds(now - began_) / rampIn) : 1);

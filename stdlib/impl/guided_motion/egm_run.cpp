@@ -36,11 +36,13 @@ EgmProcess* activatedProcess(TaskCore* task, Handle identity, GuidanceMode mode,
     EgmProcess* process = lib::egmProcess(task, identity, status);
     if (process == nullptr) return nullptr;
     EgmProcesses& all = EgmProcesses::of(taskOf(task).controller());
-    if (!process->isActivated() || process->settings().mode != mode)
-        status = lib::egmMisused(task, mode == GuidanceMode::Joint ? "Use EGMActJoint before EGMRunJoint."
-                                       : mode == GuidanceMode::Pose
-                                           ? "Use EGMActPose before EGMRunPose."
-                                           : "Use EGMActMove before EGMMoveL and EGMMoveC.");
+    const char* const remedy = mode == GuidanceMode::Joint  ? "Use EGMActJoint before EGMRunJoint."
+                               : mode == GuidanceMode::Pose ? "Use EGMActPose before EGMRunPose."
+                                                            : "Use EGMActMove before EGMMoveL and EGMMoveC.";
+    if (!process->isActivated())
+        status = lib::egmMisused(task, remedy);
+    else if (process->settings().mode != mode)
+        status = taskOf(task).fatal(static_cast<int>(EventId::EgmModeMismatch), remedy);
     else if (all.guiding(lib::motionOf(task)) != nullptr)
         status = lib::egmMisused(task, "The robot is guided already. Use EGMStop or EGMWaitCond first.");
     else
@@ -90,6 +92,15 @@ Status waitFinished(TaskCore* task, Handle identity) {
                      "no data came from the UdpUc device within \\CommTimeout, or the power failed");
 }
 
+/// The manual: the robot does not move, and execution continues.
+void noteNothingNamed(TaskCore* task, GuidanceMode mode) {
+    const Task& owner = taskOf(task);
+    owner.controller().log().write(
+        EventId::EgmNothingNamed, &owner,
+        {mode == GuidanceMode::Joint ? "EGMRunJoint" : "EGMRunPose",
+         mode == GuidanceMode::Joint ? "\\J1 to \\J7" : "\\x, \\y, \\z, \\rx, \\ry, \\rz"});
+}
+
 Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArguments& args,
            GuidanceOrder order) {
     if (const Status status = lib::requireMotionTask(task)) return status;
@@ -97,6 +108,10 @@ Status run(TaskCore* task, Handle identity, GuidanceMode mode, const RunArgument
     EgmProcess* process = activatedProcess(task, identity, mode, status);
     if (process == nullptr) return status;
     if ((status = readOrder(task, *process, args, order)) != kOk) return status;
+    if (!order.movesRobot()) {
+        noteNothingNamed(task, mode);
+        return kOk;
+    }
     if ((status = taskOf(task).requireMovementAllowed()) != kOk) return status;
     MotionDriver& motion = lib::motionOf(task);
     if ((status = motion.waitIdle(taskOf(task))) != kOk) return status;
@@ -128,7 +143,7 @@ Status rt_EGMRunJoint(TaskCore* task, Handle* EGMid, float Mode, bool NoWaitCond
                       bool J4, bool J5, bool J6, bool J7, const float* CondTime, const float* RampInTime,
                       const float* RampOutTime, const float* PosCorrGain) {
     GuidanceOrder order;
-    order.conditions = {J1, J2, J3, J4, J5, J6, J7};
+    order.named = {J1, J2, J3, J4, J5, J6, J7};
     return run(task, *EGMid, GuidanceMode::Joint,
                {Mode, NoWaitCond, CondTime, RampInTime, RampOutTime, PosCorrGain}, order);
 }
@@ -137,7 +152,7 @@ Status rt_EGMRunPose(TaskCore* task, Handle* EGMid, float Mode, bool NoWaitCond,
                      bool rx, bool ry, bool rz, const float* CondTime, const float* RampInTime,
                      const float* RampOutTime, const data::Pose* Offset, const float* PosCorrGain) {
     GuidanceOrder order;
-    order.conditions = {x, y, z, rx, ry, rz, false};
+    order.named = {x, y, z, rx, ry, rz, false};
     if (Offset != nullptr) order.offset = lib::toFrame(*Offset);
     return run(task, *EGMid, GuidanceMode::Pose,
                {Mode, NoWaitCond, CondTime, RampInTime, RampOutTime, PosCorrGain}, order);

@@ -76,8 +76,8 @@ motion::Pose guidanceFrame(MotionDriver& motion, const motion::FrameSetup& frame
     }
 }
 
-bool GuidanceOrder::hasCondition() const {
-    return std::find(conditions.begin(), conditions.end(), true) != conditions.end();
+bool GuidanceOrder::movesRobot() const {
+    return std::find(named.begin(), named.end(), true) != named.end();
 }
 
 GuidedArm::GuidedArm(MotionDriver& motion, const GuidanceSettings& settings, const GuidanceOrder& order)
@@ -90,13 +90,13 @@ GuidedArm::GuidedArm(MotionDriver& motion, const GuidanceSettings& settings, con
     wantedPose_ = inverse(sensorInWorld_) * guidedTcp(motion, settings_.frames, start_);
 }
 
-/// The axes that the data ask for; those of which they say nothing stay where they began.
+/// The axes that the instruction names and the data ask for; the others stay where they began.
 motion::Joints GuidedArm::target(const SensorData& data) {
     if (settings_.mode == GuidanceMode::Pose) return targetOfPose(data);
     motion::Joints wanted = start_.robax;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const auto number = static_cast<std::size_t>(motion_.system().kinematics().axisNumber(i));
-        if (data.joints[number - 1]) wanted[i] = *data.joints[number - 1];
+        if (order_.named[number - 1] && data.joints[number - 1]) wanted[i] = *data.joints[number - 1];
     }
     return wanted;
 }
@@ -105,15 +105,24 @@ motion::Joints GuidedArm::targetOfPose(const SensorData& data) {
     const motion::Pose from = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, start_);
     motion::Vec3 pos = from.pos, angles = robot::eulerZyx(from.rot);
     double* const places[] = {&pos.x, &pos.y, &pos.z, &angles.x, &angles.y, &angles.z};
+    std::array<std::optional<double>, 6> asked = data.pose;
+    const auto& named = order_.named;
+    const bool turnsFreely = named[3] && named[4] && named[5];
+    if (data.orientation && !turnsFreely) {
+        const motion::Vec3 turned = robot::eulerZyx(*data.orientation);
+        asked[3] = turned.x;
+        asked[4] = turned.y;
+        asked[5] = turned.z;
+    }
     bool turns = false;
-    for (std::size_t i = 0; i < data.pose.size(); ++i) {
-        if (!data.pose[i]) continue;
-        *places[i] = *data.pose[i];
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        if (!named[i] || !asked[i]) continue;
+        *places[i] = *asked[i];
         turns = turns || i >= 3;
     }
-    const motion::Quat rot = data.orientation ? *data.orientation
-                             : turns          ? robot::fromEulerZyx(angles.z, angles.y, angles.x)
-                                              : from.rot;
+    const motion::Quat rot = turnsFreely && data.orientation ? *data.orientation
+                             : turns ? robot::fromEulerZyx(angles.z, angles.y, angles.x)
+                                     : from.rot;
     wantedPose_ = motion::Pose{pos, rot} * order_.offset;
     motion::RobTarget robTarget;
     robTarget.pose = inverse(objectInWorld_) * sensorInWorld_ * wantedPose_;
@@ -129,7 +138,9 @@ motion::Joints GuidedArm::targetOfPose(const SensorData& data) {
 /// The speed of each axis with which the TCP moves as asked for from where it is, deg/s.
 motion::Joints GuidedArm::speedOfPose(const SensorData& data) const {
     motion::Joints speed = motion::Joints::zeros(now_.robax.size());
-    const auto& asked = data.poseSpeed;
+    auto asked = data.poseSpeed;
+    for (std::size_t i = 0; i < asked.size(); ++i)
+        if (!order_.named[i]) asked[i] = 0;
     if (std::all_of(asked.begin(), asked.end(), [](double value) { return value == 0; })) return speed;
     motion::Pose next = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, now_);
     next.pos = next.pos + motion::Vec3{asked[0], asked[1], asked[2]} * kSeconds;
@@ -195,6 +206,7 @@ motion::Joints GuidedArm::speedRequested(const SensorData& data) const {
     motion::Joints speed = motion::Joints::zeros(now_.robax.size());
     for (std::size_t i = 0; i < speed.size(); ++i) {
         const auto number = static_cast<std::size_t>(motion_.system().kinematics().axisNumber(i));
+        if (!order_.named[number - 1]) continue;
         speed[i] = number <= data.jointSpeed.size() ? data.jointSpeed[number - 1] : data.additionalSpeed[0];
     }
     return speed;
@@ -299,7 +311,7 @@ void GuidedArm::place(const motion::JointTarget& speed) {
 }
 
 bool GuidedArm::isConverged() const {
-    if (!order_.hasCondition()) return false;
+    if (!order_.movesRobot()) return false;
     std::array<double, 7> difference{};
     if (settings_.mode == GuidanceMode::Pose) {
         const motion::Pose is = inverse(sensorInWorld_) * guidedTcp(motion_, settings_.frames, now_);
@@ -314,8 +326,7 @@ bool GuidedArm::isConverged() const {
     }
     for (std::size_t i = 0; i < difference.size(); ++i) {
         const Window& window = settings_.windows[i];
-        if (order_.conditions[i] && !(difference[i] >= window.low && difference[i] <= window.high))
-            return false;
+        if (order_.named[i] && !(difference[i] >= window.low && difference[i] <= window.high)) return false;
     }
     return true;
 }

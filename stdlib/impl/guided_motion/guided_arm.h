@@ -30,14 +30,14 @@ struct GuidanceSettings {
 
 /// The request of EGMRunJoint and EGMRunPose.
 struct GuidanceOrder {
-    bool rampDown = false;            ///< back to the start at the end
-    bool continues = false;           ///< \NoWaitCond: the condition does not end the guidance
-    std::array<bool, 7> conditions{}; ///< which of the windows count
-    double conditionTime = 1;         ///< s
-    double rampIn = 0, rampOut = 0;   ///< s
-    double gain = 40;                 ///< 1/s: speed for each deg of difference
-    motion::Pose offset;              ///< added to the pose that is asked for
-    bool hasCondition() const;
+    bool rampDown = false;          ///< back to the start at the end
+    bool continues = false;         ///< \NoWaitCond: the condition does not end the guidance
+    std::array<bool, 7> named{};    ///< the axes or directions that move and whose windows count
+    double conditionTime = 1;       ///< s
+    double rampIn = 0, rampOut = 0; ///< s
+    double gain = 40;               ///< 1/s: speed for each deg of difference
+    motion::Pose offset;            ///< added to the pose that is asked for
+    bool movesRobot() const;
 };
 
 class GuidedArm {

@@ -210,7 +210,7 @@ TEST_CASE("Users, grants and login (serve-contract 8, 22)", "[rws]") {
     CHECK(served
               .post(kOld, "/users",
                     {{"username", "me"}, {"application", "app"}, {"location", "here"}, {"ulocale", "local"}})
-              .status == 200);
+              .status == 201);
     CHECK(served.read(kNew, "/users/login-info", "user-alias", "user-login-info") == "me");
     CHECK(served.read(kOld, "/users/grants", "grantname", "user-grant") == "UAS_FULL_ACCESS");
     CHECK(served.read(kNew, "/uas/grants", "grant-name", "grant-info") == "UAS_FULL_ACCESS");

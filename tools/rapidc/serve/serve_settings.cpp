@@ -125,7 +125,7 @@ std::string complete(ServeSettings& settings,
         settings.address = rt::net::ipText(*options.network.listen); // 0.0.0.0: all interfaces
         if (!rt::net::isLoopback(*options.network.listen) && settings.password == kDefaultPassword)
             return fmt::format(
-                "--listen={} lets other computers control the robot: choose a password with --password",
+                "--listen={} lets other computers control the robot: choose a password with --password-file",
                 settings.address);
     }
     if (settings.password.empty()) return "--password must not be empty";
