@@ -87,7 +87,7 @@ double reversalRateOf(const Bezier<Point>& curve, double first, double last, con
     constexpr double kNearly = -0.866; // cosine, of a turn by 150 degrees
     const Point in = curve.slopeAt(0), out = curve.slopeAt(1);
     const double sizes = std::sqrt(dot(in, in) * dot(out, out));
-    if (dot(in, out) > kNearly * sizes) return 0;
+    if (!(dot(in, out) < kNearly * sizes)) return 0;
     const double ends = 0.5 * (first + last); // falls to 0 on half of the curve
     return std::min(std::sqrt(2 * ends * std::min(brakingWay(a), brakingWay(b))), ends);
 }
