@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kSameMoment = 1e-7; // s; the virtual clock has whole nanoseconds
 constexpr double kMakingUp = 0.03;   // s, for what a run has covered before it was ordered
-constexpr double kSettling =
-    0.044; // s from the release of the program at a stop point to standstill, as measured
+constexpr double kSettling = 0.044;  // s, from the release at a stop point to standstill, as measured
 
 /// When the course, which comes to rest, has at most this share of its speed at `from`.
 double slowTime(const Course& course, double from, double share) {
@@ -523,7 +522,8 @@ RoutePoint Trajectory::pointAt(const PathPlace& place) const {
     return e.run->route().at(place.s);
 }
 
-void Trajectory::ratesAt(const PathPlace& place, const RoutePoint& here, Joints& first, double& tcpRate) const {
+void Trajectory::ratesAt(const PathPlace& place, const RoutePoint& here, Joints& first,
+                         double& tcpRate) const {
     std::fill(first.begin(), first.end(), 0.0);
     tcpRate = 0;
     if (isPause(place.run)) return;
@@ -585,15 +585,18 @@ void Trajectory::standAt(double now, const PathPlace& place) {
 }
 
 void Trajectory::forgetBefore(double time, const PathPlace& place) {
-    std::size_t oldest = place.run;
+    PathPlace oldest = place;
     for (const auto& follower : followers_)
-        if (const auto asking = follower.lock()) oldest = std::min(oldest, asking->oldestRun_);
-    while (entries_.size() > 1 && first_ < oldest && entries_.front().run->course().end() <= time) {
+        if (const auto asking = follower.lock()) {
+            time = std::min(time, asking->oldestTime_);
+            oldest = std::min(oldest, asking->oldest_);
+        }
+    while (entries_.size() > 1 && first_ < oldest.run && entries_.front().run->course().end() <= time) {
         entries_.pop_front();
         ++first_;
     }
-    if (first_ == place.run && !entries_.empty() && entries_.front().pause == 0)
-        entries_.front().run->forgetBefore(time, place.s);
+    if (first_ == oldest.run && !entries_.empty() && entries_.front().pause == 0)
+        entries_.front().run->forgetBefore(time, oldest.s);
 }
 
 } // namespace motion

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -131,11 +132,13 @@ class Trajectory {
     /// The arm is at a place, without having moved there (after braking off the path).
     virtual void standAt(double now, const PathPlace& place);
 
-    /// Drops the part before this time and place, except for runs that a follower still asks for.
+    /// Drops the part before this time and place, except for what a follower still asks for: its time may be an earlier one.
     virtual void forgetBefore(double time, const PathPlace& place);
 
   protected:
-    std::size_t oldestRun_ = 0; ///< of a follower: the first one of its leader that it asks for
+    /// Of a follower: the first time and place on its leader's path that it still asks for.
+    double oldestTime_ = -std::numeric_limits<double>::infinity();
+    PathPlace oldest_;
     JointTarget endTarget_;
 
   private:

@@ -315,3 +315,33 @@ TEST_CASE("corners in a work object that another robot carries", "[motion][toget
     CHECK(fastest <= 404);
     CHECK(norm(pair.inOther().pos - pair.held.pos - Vec3{0, 60, 60}) < 1e-6);
 }
+
+TEST_CASE("a robot finds its places on a path that the first robot has left already", "[motion][together]") {
+    constexpr TimeNs kBlock = 300 * kMs;
+    Pair inSteps, inBlocks;
+    for (Pair* pair : {&inSteps, &inBlocks}) {
+        for (int i = 0; i < 40; ++i) { // a plan is forgotten in large parts
+            const double way = i % 2 == 0 ? 80 : -80;
+            MoveCommand first = lineTo(pair->first, 0, way, 0, 500, i < 39);
+            MoveCommand second = lineTo(pair->second, 0, 0.7 * way, -0.5 * way, 500, i < 39);
+            if (i < 39) first.zone = second.zone = {false, 50, 75, 75, 7.5, 75, 7.5};
+            pair->order(first, second);
+        }
+    }
+    double worst = 0;
+    for (TimeNs block = kBlock; inSteps.first.nextEventTime(); block += kBlock) {
+        while (inBlocks.first.nextEventTime().value_or(block) < block)
+            inBlocks.first.advanceTo(*inBlocks.first.nextEventTime());
+        inBlocks.first.advanceTo(block);
+        for (TimeNs time = block - kBlock; time <= block; time += kMs) {
+            for (MotionSystem* system : inSteps.both)
+                system->advanceTo(time);
+            const Joints expected = inSteps.second.current().joints,
+                         found = inBlocks.second.sample(time).joints;
+            for (std::size_t axis = 0; axis < expected.size(); ++axis)
+                worst = std::max(worst, std::abs(found[axis] - expected[axis]));
+        }
+        inBlocks.second.advanceTo(block);
+    }
+    CHECK(worst < 1e-6); // deg
+}
