@@ -24,11 +24,6 @@ PathPlace Follower::leading(const PathPlace& own) const {
     return {own.run, leader_->companionsOf(own.run).leaderPlace(member_, leader_->route(own.run), own.s)};
 }
 
-void Follower::forgetBefore(double time, const PathPlace& place) {
-    oldestTime_ = time;
-    oldest_ = leading(place);
-}
-
 PathPlace Follower::restPlaceIfHeld(double time) const {
     return own(leader_->restPlaceIfHeld(time));
 }

@@ -44,7 +44,10 @@ class Follower final : public Trajectory {
     double backEnd() const override { return leader_->backEnd(); }
     void finishBack(double now) override { leader_->finishBack(now); }
     void standAt(double now, const PathPlace& place) override { leader_->standAt(now, leading(place)); }
-    void forgetBefore(double time, const PathPlace& place) override;
+    void forgetBefore(double time, const LegRef& leg) override {
+        oldestTime_ = time;
+        oldest_ = leg;
+    }
     const Trajectory* leader() const { return leader_.get(); }
 
   private:

@@ -333,8 +333,7 @@ void MotionSystem::Impl::forgetBefore(TimeNs time) {
     if (path().isEmpty() || spans.front().path != level.path) return;
     const Move* oldest = level.finished.empty() ? front() : level.finished.front().get();
     if (oldest == nullptr) return;
-    const PathPlace place = startOf(*oldest);
-    path().forgetBefore(toSeconds(time), place);
+    path().forgetBefore(toSeconds(time), oldest->leg);
 }
 
 } // namespace motion

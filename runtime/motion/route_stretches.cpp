@@ -253,4 +253,5 @@ bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
     return low.isSolved && high.isSolved && stretch.middle.isSolved &&
            kinematics.jointOutsideLimits(stretch.middle.joints) == 0;
 }
+
 } // namespace motion

@@ -584,8 +584,8 @@ void Trajectory::standAt(double now, const PathPlace& place) {
     }
 }
 
-void Trajectory::forgetBefore(double time, const PathPlace& place) {
-    PathPlace oldest = place;
+void Trajectory::forgetBefore(double time, const LegRef& leg) {
+    LegRef oldest = leg;
     for (const auto& follower : followers_)
         if (const auto asking = follower.lock()) {
             time = std::min(time, asking->oldestTime_);
@@ -596,7 +596,7 @@ void Trajectory::forgetBefore(double time, const PathPlace& place) {
         ++first_;
     }
     if (first_ == oldest.run && !entries_.empty() && entries_.front().pause == 0)
-        entries_.front().run->forgetBefore(time, oldest.s);
+        entries_.front().run->forgetBefore(time, legStart(oldest).s);
 }
 
 } // namespace motion

@@ -24,6 +24,7 @@ struct PathPlace {
 struct LegRef {
     std::size_t run = 0;
     std::size_t leg = 0;
+    friend auto operator<=>(const LegRef&, const LegRef&) = default;
 };
 
 struct TrajectoryOptions {
@@ -132,13 +133,13 @@ class Trajectory {
     /// The arm is at a place, without having moved there (after braking off the path).
     virtual void standAt(double now, const PathPlace& place);
 
-    /// Drops the part before this time and place, except for what a follower still asks for: its time may be an earlier one.
-    virtual void forgetBefore(double time, const PathPlace& place);
+    /// Drops the part before this time and leg, except for what a follower still asks for: its time may be an earlier one.
+    virtual void forgetBefore(double time, const LegRef& leg);
 
   protected:
-    /// Of a follower: the first time and place on its leader's path that it still asks for.
+    /// Of a follower: the first time and leg of its leader's path that it still asks for.
     double oldestTime_ = -std::numeric_limits<double>::infinity();
-    PathPlace oldest_;
+    LegRef oldest_;
     JointTarget endTarget_;
 
   private:
