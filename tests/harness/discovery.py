@@ -46,28 +46,26 @@ def discover_documents(source, found):
     found["docs/decisions"] = DecisionsTest(os.path.join(docs, "decisions"))
 
 
+def discover_files(tests, kind, suffixes, make, found):
+    for name, path in files_below(os.path.join(tests, kind), tests):
+        if path.endswith(suffixes):
+            found[name] = make(path)
+
+
 def discover(source, group=None):
     """All tests by name, or those of one group."""
     found = {}
     tests = os.path.join(source, "tests")
-
-    def wanted(*groups):
-        return [name for name in groups if group in (None, name)]
-
-    for kind in wanted("golden", "tasks"):
-        discover_programs(os.path.join(tests, kind), kind, found)
-    for kind in wanted("samples"):
-        discover_programs(os.path.join(source, kind), kind, found)
-    for kind in wanted("diag"):
-        for name, path in files_below(os.path.join(tests, kind), tests):
-            if path.endswith(SOURCE_SUFFIXES):
-                found[name] = DiagnosticTest(path)
-    for kind in wanted("cli"):
-        for name, path in files_below(os.path.join(tests, kind), tests):
-            if path.endswith(".test"):
-                found[name] = CommandTest(path)
-    if wanted("phases"):
-        discover_phases(tests, found)
-    if wanted("docs"):
-        discover_documents(source, found)
+    finders = {
+        "golden": lambda: discover_programs(os.path.join(tests, "golden"), "golden", found),
+        "tasks": lambda: discover_programs(os.path.join(tests, "tasks"), "tasks", found),
+        "samples": lambda: discover_programs(os.path.join(source, "samples"), "samples", found),
+        "diag": lambda: discover_files(tests, "diag", SOURCE_SUFFIXES, DiagnosticTest, found),
+        "cli": lambda: discover_files(tests, "cli", ".test", CommandTest, found),
+        "phases": lambda: discover_phases(tests, found),
+        "docs": lambda: discover_documents(source, found),
+    }
+    for name, find in finders.items():
+        if group in (None, name):
+            find()
     return found
