@@ -5,7 +5,9 @@
 #include "ir/core/ir.h"
 
 #include <functional>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,12 @@ struct Options {
     /// Returns whether a native symbol ("rt_MoveL") has an implementation; empty: all have. A call of one
     /// without is reported as a warning and stops the program with an event when it is reached.
     std::function<bool(std::string_view)> nativeImplemented;
+    /// Calls a function of the standard library whose result depends on its arguments alone. `arguments`: a value for each
+    /// parameter, null for an absent optional one or a switch that is not given. The text of a result lies in the arena.
+    /// Returns nothing when the function raises an error, or is not known here; empty: no call is evaluated.
+    std::function<std::optional<sema::ConstValue>(
+        const sema::RoutineSymbol&, std::span<const sema::ConstValue* const> arguments, Arena& arena)>
+        evaluate;
     /// For the stepping profile (decision 34): every statement can be chosen as the next one, data of routines
     /// lie in memory and are described, BACKWARD handlers are compiled.
     bool stepping = false;

@@ -2,6 +2,7 @@
 // State shared by all routines of one program while it is lowered: types, globals, natives, routine numbers.
 
 #include "ir/lower/argument_copies.h"
+#include "ir/lower/evaluated_calls.h"
 #include "ir/lower/lower.h"
 #include "runtime/abi/support_natives.h"
 
@@ -83,6 +84,7 @@ class ProgramLowering {
     /// A native of the runtime support that has no RAPID name.
     uint32_t support(Support native);
     bool implemented(const sema::RoutineSymbol& symbol) const;
+    EvaluatedCalls& evaluatedCalls() { return evaluatedCalls_; }
     /// Interned read-only data.
     uint32_t constGlobal(ir::TypeId type, ir::ConstData data);
     uint32_t stringGlobal(std::string_view text);
@@ -146,6 +148,7 @@ class ProgramLowering {
     std::map<std::pair<uint32_t, const sema::RoutineSymbol*>, uint32_t> routines_;
     std::unordered_map<std::string, uint32_t> natives_;
     std::map<std::string, uint32_t> constants_;
+    EvaluatedCalls evaluatedCalls_{options_};
     std::unordered_map<sema::LanguageError, int32_t> errorNumbers_;
     int32_t allErrors_ = ir::kEveryError;
     std::unordered_map<std::string, uint32_t> files_;

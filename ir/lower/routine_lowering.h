@@ -229,6 +229,12 @@ class RoutineLowering {
     ValueId objectAddress(const Slot& slot);
     ValueId addressIfPresent(const Slot& slot);
 
+    // lower_evaluated.cpp
+    /// The value of a constant expression, or of a call that is evaluated; null for others.
+    const sema::ConstValue* constantOf(const Expr& expr);
+    const sema::ConstValue* evaluatedCall(const BoundCall& call);
+    ValueId lowerEvaluated(const sema::ConstValue& value, const sema::DataType& type, ValueId resultAddr);
+
     // lower_call.cpp
     ValueId lowerCall(const syntax::Node& node, ValueId resultAddr); ///< CallExpr or CallStmt
     ValueId lowerSpecial(const sema::BoundCall& call, bool& done);

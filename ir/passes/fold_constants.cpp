@@ -168,9 +168,7 @@ bool compute(const Inst& inst, const Constant& a, const Constant& b, Constant& o
 
 class Folder {
   public:
-    Folder(const Module& module, Routine& routine, NativeCode nativeCode)
-        : module_(module), routine_(routine), nativeCode_(nativeCode),
-          replacement_(routine.insts.size(), kNone) {}
+    explicit Folder(Routine& routine) : routine_(routine), replacement_(routine.insts.size(), kNone) {}
 
     void run() {
         for (bool changed = true; changed;) {
@@ -225,11 +223,11 @@ class Folder {
     bool evaluate(Inst& inst) {
         TypeId type = valueType(inst);
         if (type == kVoid || type == kPtr) return false;
-        if (inst.op != Op::CallNative && opInfo(inst.op).touchesMemory) return false;
+        if (inst.op == Op::CallNative || opInfo(inst.op).touchesMemory) return false;
         for (ValueId operand : inst.operands)
             if (!isConst(operand)) return false;
         Constant out{type};
-        if (!(inst.op == Op::CallNative ? call(inst, out) : compute(inst, out))) return false;
+        if (!compute(inst, out)) return false;
         inst.op = Op::Const;
         inst.type = type;
         inst.operands.clear();
@@ -247,17 +245,6 @@ class Folder {
         return ir::compute(inst, a, b, out);
     }
 
-    bool call(const Inst& inst, Constant& out) const {
-        std::vector<double> arguments;
-        for (const ValueId operand : inst.operands) {
-            const Constant value = valueOf(operand);
-            arguments.push_back(value.type == kBool ? static_cast<double>(value.integer) : value.number);
-        }
-        const auto result = callConstNative(module_.natives[inst.index], nativeCode_, arguments);
-        if (!result) return false;
-        return out.type == kBool ? keep(uint64_t{*result != 0}, out) : keep(*result, out);
-    }
-
     void dropTrueChecks() {
         auto passes = [&](ValueId id) {
             const Inst& inst = routine_.insts[id];
@@ -270,16 +257,14 @@ class Folder {
             std::erase_if(block.insts, passes);
     }
 
-    const Module& module_;
     Routine& routine_;
-    const NativeCode nativeCode_;
     std::vector<ValueId> replacement_; ///< of a select whose condition is constant
 };
 
 } // namespace
 
-void foldConstants(const Module& module, Routine& routine, NativeCode nativeCode) {
-    Folder(module, routine, nativeCode).run();
+void foldConstants(Routine& routine) {
+    Folder(routine).run();
 }
 
 } // namespace ir

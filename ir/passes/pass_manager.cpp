@@ -26,7 +26,7 @@ bool runPass(std::string_view name, const Module& module, Routine& routine, cons
     if (name == "simplify-cfg")
         simplifyCfg(module, routine);
     else if (name == "fold-constants")
-        foldConstants(module, routine, options.nativeCode);
+        foldConstants(routine);
     else if (name == "check-overflow" && options.overflowChecks)
         checkOverflow(module, routine);
     else if (name == "merge-checks" && routine.insts.size() < kHuge)

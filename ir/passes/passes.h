@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "ir/core/ir.h"
-#include "ir/passes/call_native.h"
 
 namespace ir {
 
@@ -18,8 +17,6 @@ enum class Profile : uint8_t {
 struct PassOptions {
     Profile profile = Profile::Release;
     bool overflowChecks = true; ///< off to measure what they cost; results are then not those of a controller
-    NativeCode nativeCode =
-        nullptr; ///< what the program will call; null: calls with constant arguments are not folded
 };
 
 /// Runs checkOverflow, simplifyCfg, foldConstants, simplifyCfg, mergeChecks, placeSafepoints on all routines. Returns the
@@ -39,8 +36,8 @@ std::vector<std::string> runPasses(Module& module, const PassOptions& options,
 
 /// Removes unreachable blocks, threads jumps through empty blocks, merges a block into its only predecessor.
 void simplifyCfg(const Module& module, Routine& routine);
-/// Evaluates instructions whose operands are constants, calls of natives of class Const among them, and branches on constants.
-void foldConstants(const Module& module, Routine& routine, NativeCode nativeCode);
+/// Evaluates instructions whose operands are constants, and branches on constants.
+void foldConstants(Routine& routine);
 /// Raises Module::overflowError where a floating-point result is out of range; does nothing when that is 0.
 void checkOverflow(const Module& module, Routine& routine);
 /// One look at several values in place of a check of each; release profile only.

@@ -6,9 +6,13 @@
 
 namespace stdlibgen {
 
+/// How values of a type are represented, those of an alias as those of its type; Repr::Record for an unknown name.
+Repr reprOf(const Model& model, std::string_view type);
 /// Whether a native is called by value without a task (class Const) or with a task and a status (class
 /// Plain). Const: `effects: const`, result and all parameters are required num, dnum or bool, mode IN.
 bool isConstNative(const Model& model, const Routine& routine);
+/// An argument that gets to a native in a register, not by its address.
+bool isPassedByValue(const Model& model, const Param& param);
 /// False for routines that the compiler replaces altogether (Present, Dim, WaitUntil).
 bool hasPrototype(const Routine& routine);
 /// "rt_" and the name as declared.
@@ -29,6 +33,8 @@ std::string emitConstants(const Model& model);
 /// The prototypes of the natives that one file declares: a changed declaration compiles only what includes them again.
 std::string emitNatives(const Model& model, const SourceText& source);
 std::string emitNativeTable(const Model& model);
+/// How the compiler calls functions without side effects (stdlib/constant_calls.h).
+std::string emitConstantCalls(const Model& model);
 std::string emitErrorTable(const Model& model);
 std::string emitSources(const Model& model);
 std::string emitJson(const Model& model);

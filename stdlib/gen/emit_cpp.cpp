@@ -11,6 +11,11 @@
 
 namespace stdlibgen {
 
+Repr reprOf(const Model& model, std::string_view type) {
+    const TypeInfo* base = model.baseType(type);
+    return base ? base->repr : Repr::Record;
+}
+
 namespace {
 
 constexpr std::string_view kHeader =
@@ -18,11 +23,6 @@ constexpr std::string_view kHeader =
 
 bool isScalar(Repr repr) {
     return repr == Repr::Num || repr == Repr::Dnum || repr == Repr::Bool;
-}
-
-Repr reprOf(const Model& model, std::string_view type) {
-    const TypeInfo* base = model.baseType(type);
-    return base ? base->repr : Repr::Record;
 }
 
 rt::ParamShape shapeOf(const Model& model, const Param& p) {
@@ -143,11 +143,14 @@ std::string cppType(const Model& model, std::string_view type) {
     return "rt::data::" + name;
 }
 
+bool isPassedByValue(const Model& model, const Param& param) {
+    return rt::passingOf(shapeOf(model, param)) == rt::Passing::Value;
+}
+
 bool isConstNative(const Model& model, const Routine& routine) {
     const bool isFunction = !routine.returnType.empty();
-    const bool allValues = std::all_of(routine.params.begin(), routine.params.end(), [&](const Param& p) {
-        return rt::passingOf(shapeOf(model, p)) == rt::Passing::Value;
-    });
+    const bool allValues = std::all_of(routine.params.begin(), routine.params.end(),
+                                       [&](const Param& p) { return isPassedByValue(model, p); });
     return rt::returnsItsValue(routine.doc.get("effects") == "const",
                                isFunction && isScalar(reprOf(model, routine.returnType)), allValues);
 }

@@ -9,6 +9,7 @@
 #include "stdlib/standard_library.h"
 #include "stdlib/stdlib_text.h"
 #include "tests/fuzz/fuzz_support.h"
+#include "tools/program/constant_calls.h"
 #include "tools/program/native_library.h"
 
 #include <algorithm>
@@ -167,12 +168,12 @@ RunResult ProgramRunner::run(Way way) {
     options.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };
+    if (way.optimise) options.evaluate = rapidc::constantCalls(); // the other ways execute these calls
     ir::Module module;
     diag::Sink sink;
     demand(lower::lowerProgram(*program_, options, sink, module), "checked, but not lowered:\n" + show(sink));
     ir::PassOptions passes;
     passes.profile = way.stepping ? ir::Profile::Stepping : ir::Profile::Release;
-    passes.nativeCode = rt::findNativeAddress;
     std::string findings;
     for (const std::string& finding : ir::runPasses(module, passes))
         findings += finding + "\n";

@@ -6,6 +6,7 @@
 #include "ir/verify/verify.h"
 #include "runtime/host/command_line.h"
 #include "stdlib/native_table.h"
+#include "tools/program/constant_calls.h"
 #include "tools/program/controller_environment.h"
 
 #include <cstdio>
@@ -100,6 +101,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     options.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };
+    options.evaluate = constantCalls();
     const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
     rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
     if (!lowered || compilation.sink.hasErrors()) return false;
@@ -114,8 +116,7 @@ bool timesStatements(const Compilation& compilation) {
 
 ir::PassOptions irPasses(const Compilation& compilation, bool stepping) {
     return {.profile = stepping ? ir::Profile::Stepping : ir::Profile::Release,
-            .overflowChecks = compilation.overflowChecks,
-            .nativeCode = rt::findNativeAddress};
+            .overflowChecks = compilation.overflowChecks};
 }
 
 bool runIrPasses(ir::Module& module, const ir::PassOptions& options, diag::Sink& sink) {

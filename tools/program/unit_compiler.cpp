@@ -4,6 +4,7 @@
 #include "ir/lower/lower.h"
 #include "runtime/program/program_tables.h"
 #include "stdlib/native_table.h"
+#include "tools/program/constant_calls.h"
 #include "tools/program/native_library.h"
 
 #include <algorithm>
@@ -155,6 +156,7 @@ bool SourceCompiler::generate(const sema::CheckedProgram& program, const sema::M
     unit.program.nativeImplemented = [](std::string_view symbol) {
         return rt::findNativeAddress(symbol) != nullptr;
     };
+    unit.program.evaluate = constantCalls();
     unit.program.sharedModules = sources_.sharedModules;
     unit.exists = [&](std::string_view moduleName, std::string_view name) {
         return rt::findUnitData(state.tables, name, moduleName, request.taskIndex) != nullptr;
@@ -163,9 +165,7 @@ bool SourceCompiler::generate(const sema::CheckedProgram& program, const sema::M
     diag::Sink sink;
     if (!rapid::lower::lowerUnit(program, static_cast<uint32_t>(request.taskIndex), module, unit, sink,
                                  made) ||
-        !runIrPasses(made,
-                     {.profile = sources_.stepping ? ir::Profile::Stepping : ir::Profile::Release,
-                      .nativeCode = rt::findNativeAddress},
+        !runIrPasses(made, {.profile = sources_.stepping ? ir::Profile::Stepping : ir::Profile::Release},
                      sink)) {
         result.problems = problemsOf(sink);
         return false;

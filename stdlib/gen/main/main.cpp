@@ -39,6 +39,7 @@ bool writeAll(const stdlibgen::Model& model, const std::string& folder) {
     ok &= writeIfChanged(folder + "/layout_checks.cpp", emitLayoutChecks(model));
     ok &= writeIfChanged(folder + "/stdlib_constants.h", emitConstants(model));
     ok &= writeIfChanged(folder + "/native_table.cpp", emitNativeTable(model));
+    ok &= writeIfChanged(folder + "/constant_calls.cpp", emitConstantCalls(model));
     ok &= writeIfChanged(folder + "/error_table.cpp", emitErrorTable(model));
     ok &= writeIfChanged(folder + "/stdlib_sources.cpp", emitSources(model));
     ok &= writeIfChanged(folder + "/builtins.json", emitJson(model));
