@@ -150,11 +150,10 @@ void Route::placeLastCorner() {
 }
 
 /// Whether the place lies in a corner or in a zone of orientation or external axes.
-bool Route::isShaped(double place) const {
-    const std::size_t i = ownLeg(place);
-    if (place > leg(i).end()) return true;
+bool Route::isShaped(std::size_t own, double place) const {
+    if (place > leg(own).end()) return true;
     const auto covers = [&](const Corner& c) { return c.turn.covers(place) || c.external.covers(place); };
-    return covers(corner(i)) || (i > firstLeg_ && covers(corner(i - 1)));
+    return covers(corner(own)) || (own > firstLeg_ && covers(corner(own - 1)));
 }
 
 std::optional<double> Route::curveRate(std::size_t own, bool inCorner) const {
@@ -220,10 +219,13 @@ const Joints& Route::jointsNear(double place) const {
                               : stretches_[stretchAt(place)].middle.joints;
 }
 
-RoutePoint Route::pointAt(double place, const Joints* near, std::optional<Pose>* tcp) const {
-    const std::size_t number = ownLeg(place);
-    return place > leg(number).end() && isRounded(number) ? pointInCorner(number, place, near, tcp)
-                                                          : pointOnLeg(number, place, near, tcp);
+RoutePoint Route::pointAt(double place, const Joints* near) const {
+    return pointOn(ownLeg(place), place, near, nullptr);
+}
+
+RoutePoint Route::pointOn(std::size_t own, double place, const Joints* near, std::optional<Pose>* tcp) const {
+    return place > leg(own).end() && isRounded(own) ? pointInCorner(own, place, near, tcp)
+                                                    : pointOnLeg(own, place, near, tcp);
 }
 
 RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints* near,
@@ -337,7 +339,10 @@ double Route::placeBeforeEnd(std::size_t number, double mm) const {
 }
 
 std::size_t Route::legAt(double place) const {
-    const std::size_t own = ownLeg(place);
+    return legBy(ownLeg(place), place);
+}
+
+std::size_t Route::legBy(std::size_t own, double place) const {
     return own + 1 < legCount() && place > corner(own).middle() ? own + 1
            : own > firstLeg_ && place < legStart(own)           ? own - 1
                                                                 : own;

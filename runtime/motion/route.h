@@ -6,6 +6,7 @@
 #include "runtime/motion/corner.h"
 #include "runtime/motion/move_limits.h"
 #include "runtime/motion/path.h"
+#include "runtime/motion/stretch_queue.h"
 
 #include <deque>
 #include <functional>
@@ -100,7 +101,7 @@ class Route {
     Pose tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const;
     /// mm of TCP path for a mm of route, where the curve is one of the TCP; nothing where axes are interpolated.
     std::optional<double> curveRateAt(double place) const;
-    const std::deque<RouteStretch>& stretches() const { return stretches_; }
+    const StretchQueue<RouteStretch>& stretches() const { return stretches_; }
     /// Index of the stretch that contains the place.
     std::size_t stretchAt(double place) const;
     /// Forgets stretches and legs that end before this place; how many stretches.
@@ -114,13 +115,18 @@ class Route {
     static double armAngleOn(const Leg& leg, double distance);
 
     const Corner& corner(std::size_t number) const { return corners_[number - firstLeg_]; }
+    /// The leg on which the place lies, or at the end of which it lies in a corner.
     std::size_t ownLeg(double place) const;
+    /// legAt() of a place whose ownLeg() is known.
+    std::size_t legBy(std::size_t own, double place) const;
     std::optional<double> curveRate(std::size_t own, bool inCorner) const;
     /// The joints in the middle of the stretch at a place.
     const Joints& jointsNear(double place) const;
-    /// `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known without the angles.
     /// `near`: the joints at a place close by; null: those of the stretch there.
-    RoutePoint pointAt(double place, const Joints* near, std::optional<Pose>* tcp = nullptr) const;
+    RoutePoint pointAt(double place, const Joints* near) const;
+    /// The same where ownLeg() is known. `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known
+    /// without the angles.
+    RoutePoint pointOn(std::size_t own, double place, const Joints* near, std::optional<Pose>* tcp) const;
     RoutePoint pointOnLeg(std::size_t number, double place, const Joints* near,
                           std::optional<Pose>* tcp) const;
     RoutePoint pointInCorner(std::size_t number, double place, const Joints* near,
@@ -138,9 +144,10 @@ class Route {
     void addBends(const Corner& corner, double from, double to, std::vector<double>& places) const;
     void addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const;
     std::vector<double> bordersFrom(double from) const;
-    bool measure(RouteStretch& stretch, const Joints& seed) const;
-    bool passesSmoothly(const RouteStretch& before, const RouteStretch& after) const;
-    bool isShaped(double place) const;
+    bool measure(RouteStretch& stretch, std::size_t own, const Joints& seed) const;
+    bool joins(const RouteStretch& before, const RouteStretch& after, std::optional<int>& branch) const;
+    bool passesSmoothly(const RouteStretch& before, const RouteStretch& after, int branch) const;
+    bool isShaped(std::size_t own, double place) const;
     std::optional<Pose> userFrameAt(double place) const;
     Pose flangeFor(const MotionPath& path, const Pose& target, const ExternalAxes& axes, double place) const;
 
@@ -149,7 +156,7 @@ class Route {
     std::size_t firstLeg_ = 0;
     std::deque<Leg> legs_;
     std::deque<Corner> corners_; // at the end of each leg
-    std::deque<RouteStretch> stretches_;
+    StretchQueue<RouteStretch> stretches_;
     std::size_t keptStretches_ = 0;               // at the last append()
     std::vector<RouteStretch> replacedStretches_; // by it, the last one first
 };

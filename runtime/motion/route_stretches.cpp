@@ -136,6 +136,7 @@ bool Route::layStretches(double from) {
     const std::vector<double> borders = bordersFrom(from);
     double begin = from;
     bool wasInZone = false;
+    std::optional<int> branch; // of the configuration in the last stretch, where it is known
     for (std::size_t i = 1; i < borders.size(); ++i) {
         const double gap = borders[i] - begin;
         // Borders closer than this add nothing; the last one is kept in any case.
@@ -149,20 +150,16 @@ bool Route::layStretches(double from) {
             stretch.end = k + 1 == parts ? borders[i] : begin + gap * (k + 1) / parts;
             const bool isFirst = stretches_.empty();
             const Joints seed = isFirst ? legs_.front().path->start().robax : stretches_.back().middle.joints;
-            const bool isGood = measure(stretch, seed);
-            const bool isInZone = isShaped(0.5 * (stretch.begin + stretch.end));
+            const double middle = 0.5 * (stretch.begin + stretch.end);
+            const std::size_t own = ownLeg(middle);
+            const bool isGood = measure(stretch, own, seed);
+            const bool isInZone = isShaped(own, middle);
             if (isInZone && !isGood) return false;
             // The first stretch after a zone, too: there the legs' own axes count again, perhaps a turn further.
-            if (!isFirst && (isInZone || wasInZone)) {
-                const RouteStretch& last = stretches_.back();
-                const double way = 0.5 * (stretch.end - last.begin);
-                for (std::size_t axis = 0; axis < seed.size(); ++axis) {
-                    const double step = stretch.middle.joints[axis] - last.middle.joints[axis];
-                    const double expected = 0.5 * (stretch.first[axis] + last.first[axis]) * way;
-                    if (std::abs(step - expected) > kLargestJump + 0.5 * std::abs(expected)) return false;
-                }
-                if (!passesSmoothly(last, stretch)) return false;
-            }
+            if (isFirst || !(isInZone || wasInZone))
+                branch.reset();
+            else if (!joins(stretches_.back(), stretch, branch))
+                return false;
             stretches_.push_back(stretch);
             wasInZone = isInZone;
         }
@@ -172,13 +169,25 @@ bool Route::layStretches(double from) {
     return true;
 }
 
+/// Between two neighbouring stretches no axis jumps. `branch`: that of the configuration in the first one, nothing where it is not known yet;
+/// afterwards that in the second one.
+bool Route::joins(const RouteStretch& before, const RouteStretch& after, std::optional<int>& branch) const {
+    const double way = 0.5 * (after.end - before.begin);
+    for (std::size_t axis = 0; axis < after.first.size(); ++axis) {
+        const double step = after.middle.joints[axis] - before.middle.joints[axis];
+        const double expected = 0.5 * (after.first[axis] + before.first[axis]) * way;
+        if (std::abs(step - expected) > kLargestJump + 0.5 * std::abs(expected)) return false;
+    }
+    const robot::Kinematics& kinematics = legs_.front().path->kinematics();
+    const int first = branch ? *branch : kinematics.configuration(before.middle.joints).cfx;
+    branch = kinematics.configuration(after.middle.joints).cfx;
+    return *branch == first || passesSmoothly(before, after, first);
+}
+
 /// Between two neighbouring stretches with different configurations the axes pass where these meet, without a detour on a way too short to
 /// be seen otherwise.
-bool Route::passesSmoothly(const RouteStretch& before, const RouteStretch& after) const {
+bool Route::passesSmoothly(const RouteStretch& before, const RouteStretch& after, int branch) const {
     const robot::Kinematics& kinematics = legs_.front().path->kinematics();
-    const auto branchOf = [&](const Joints& joints) { return kinematics.configuration(joints).cfx; };
-    const int branch = branchOf(before.middle.joints);
-    if (branch == branchOf(after.middle.joints)) return true;
     const double from = 0.5 * (before.begin + before.end), to = 0.5 * (after.begin + after.end);
     double low = 0, high = 1;
     for (int i = 0; i < 24; ++i) {
@@ -193,25 +202,24 @@ bool Route::passesSmoothly(const RouteStretch& before, const RouteStretch& after
             if (std::abs(point.joints[axis] - expected[axis]) > kLargestJump + 0.5 * std::abs(step))
                 return false;
         }
-        (branchOf(point.joints) == branch ? low : high) = share;
+        (kinematics.configuration(point.joints).cfx == branch ? low : high) = share;
     }
     return true;
 }
 
-bool Route::measure(RouteStretch& stretch, const Joints& seed) const {
+bool Route::measure(RouteStretch& stretch, std::size_t own, const Joints& seed) const {
     const double middle = 0.5 * (stretch.begin + stretch.end);
     const double step = 0.25 * (stretch.end - stretch.begin);
-    const std::size_t own = ownLeg(middle);
     const Leg& l = leg(own);
     const bool inCorner = middle > l.end();
-    stretch.leg = legAt(middle);
+    stretch.leg = legBy(own, middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
     stretch.isReversal = inCorner && corner(own).reversalRate > 0;
     std::optional<Pose> beforeTcp, hereTcp, afterTcp;
-    stretch.middle = pointAt(middle, &seed, &hereTcp);
-    const RoutePoint low = pointAt(middle - step, &stretch.middle.joints, &beforeTcp);
-    const RoutePoint high = pointAt(middle + step, &stretch.middle.joints, &afterTcp);
+    stretch.middle = pointOn(own, middle, &seed, &hereTcp);
+    const RoutePoint low = pointOn(own, middle - step, &stretch.middle.joints, &beforeTcp);
+    const RoutePoint high = pointOn(own, middle + step, &stretch.middle.joints, &afterTcp);
     differentiate(stretch, low, high, step);
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();

@@ -100,7 +100,7 @@ class Run {
     bool isOpen_ = false;
     bool isBraking_ = false;
     mutable std::optional<double> decision_; // found since the plan changed last; of the optimal plan
-    std::deque<StretchLimits> limits_;       // of each stretch
+    StretchQueue<StretchLimits> limits_;     // of each stretch
     std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
     std::deque<double> planned_;   // squares of the plan there
     std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed
