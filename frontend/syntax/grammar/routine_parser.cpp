@@ -310,6 +310,7 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     const RoutineWords words = wordsOf(routine->routineKind);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (accept(words.end) || braced) return;
+    routine->closed = false;
     if (!reports().mayReportEnd()) return;
     const std::string expected(tokenText(words.end));
     diag::Diagnostic* diagnostic = report(say::MissingBlockEnd, pos(), {describe(pos()), expected});
@@ -320,6 +321,7 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     if (!kEnds.has(kind()) && !isMarked(Mark::WrongEnd) && !endsModule) return;
     fix(diagnostic, range(pos()), expected, false);
     take();
+    routine->closed = true;
 }
 
 } // namespace rapid::syntax
