@@ -4,6 +4,7 @@
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
 
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -139,7 +140,9 @@ struct TaskContext {
     SignalUses signalUses;
     std::vector<const syntax::SyntaxTree*> brokenTrees; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared;           ///< names in declarations that could not be read
-    std::unordered_set<NameId> reportedNames;           ///< unknown signals and options, reported once
+    /// LOCAL names of all modules; put together when the first name is met that nothing declares.
+    std::optional<std::unordered_set<NameId>> localNames;
+    std::unordered_set<NameId> reportedNames; ///< unknown signals and options, reported once
     std::vector<UnknownName> unknownNames;
     size_t comparisonsLeft = kMaxComparisons; ///< of names with misspelt ones
 };

@@ -30,6 +30,10 @@ class Suggestions : CheckerPart {
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
   private:
+    /// The predefined name for a word of other languages; null: it is not one.
+    const Symbol* meantByForeign(std::string_view written, Wanted wanted);
+    const std::vector<NameId>& nearPredefined(NameId name);
+
     Scopes& scopes_;
 };
 

@@ -166,6 +166,23 @@ bool UnknownNames::reportTorn(TokenIndex token) {
     return true;
 }
 
+std::pair<const Module*, const Symbol*> UnknownNames::localElsewhere(NameId name, Wanted wanted) {
+    if (!task_.task) return {};
+    if (!task_.localNames) {
+        task_.localNames.emplace();
+        for (const Module* module : task_.task->modules)
+            state_.scopes[module->id]->names.forEach(
+                [&](NameId local, const Symbol*) { task_.localNames->insert(local); });
+    }
+    if (!task_.localNames->contains(name)) return {};
+    for (const Module* module : task_.task->modules) {
+        const Symbol* local =
+            module == context_.module ? nullptr : state_.scopes[module->id]->names.find(name);
+        if (local && suggestions_.isWanted(*local, wanted)) return {module, local};
+    }
+    return {};
+}
+
 Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, NameId name, Wanted wanted,
                                   std::string_view otherHint) {
     if (!mayReportUnknown(name) || reportTorn(token)) return Meant::Unknown;
@@ -194,10 +211,7 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
     const bool routine = wanted != Wanted::Data && wanted != Wanted::Type;
     if (routine && context_.routine && best.name.empty() && !routine_.unknownRoutines.insert(name).second)
         return meant;
-    for (const Module* module : task_.task ? task_.task->modules : std::vector<Module*>()) {
-        const Symbol* local =
-            module == context_.module ? nullptr : state_.scopes[module->id]->names.find(name);
-        if (!local || !suggestions_.isWanted(*local, wanted)) continue;
+    if (const auto [module, local] = localElsewhere(name, wanted); local) {
         noteDeclared(report(say::LocalElsewhere, range(token), {text(token), module->name}), *local);
         return Meant::Unknown;
     }
