@@ -527,6 +527,34 @@ class Formatting(Language):
             "options": {"tabSize": 2, "insertSpaces": True}})
         self.assertFalse(any("ENDIF" in e["newText"] for e in again))
 
+    def on_type(self, text, place, typed, version, spaces=True):
+        self.client.change(self.document, version, text)
+        edits = self.client.request("textDocument/onTypeFormatting", {
+            "textDocument": {"uri": self.document}, "position": {"line": place[0], "character": place[1]}, "ch": typed,
+            "options": {"tabSize": 4, "insertSpaces": spaces}})
+        return edited(text, edits).split("\n")
+
+    def test_typing_keeps_the_indentation_of_the_file(self):
+        """docs/editors.md: the line typed is laid out inside; its indentation is that of the file, unless the line above has that of
+        rapidc fmt."""
+        version = 2
+        for one in ("    ", "\t"):
+            lines = ["MODULE m", one + "PROC main()", 2 * one + "IF TRUE THEN", 3 * one + 'TPWrite   "x" ;', 2 * one + "ENDIF",
+                     one + "ENDPROC", "ENDMODULE", ""]
+            typed = self.on_type("\n".join(lines), (3, len(lines[3])), ";", version, one != "\t")
+            self.assertEqual(typed[3], 3 * one + 'TPWrite "x";')
+            opened = self.on_type("\n".join(lines[:3] + [""] + lines[5:]), (3, 0), "\n", version + 1, one != "\t")
+            self.assertEqual(opened[3:5], [3 * one, 2 * one + "ENDIF"])
+            version += 2
+        laid_out = 'MODULE m\n   PROC main()\n      TPWrite "a";\n  TPWrite   "b";\n   ENDPROC\nENDMODULE\n'
+        self.assertEqual(self.on_type(laid_out, (3, 16), ";", version)[3], '      TPWrite "b";')
+
+    def test_a_block_at_the_margin_takes_the_options(self):
+        """FormattingOptions.tabSize and insertSpaces, where the text shows no indentation yet."""
+        text = "PROC main()\n\n"
+        self.assertEqual(self.on_type(text, (1, 0), "\n", 2)[1:3], ["    ", "ENDPROC"])
+        self.assertEqual(self.on_type(text, (1, 0), "\n", 3, False)[1:3], ["\t", "ENDPROC"])
+
 
 class Configuration(Language):
     CONFIG = 'EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n      -Name "doGrip" -SignalType "DO" \n#\nEIO_CROSS:\n\n' \
