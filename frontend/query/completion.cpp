@@ -29,8 +29,9 @@ enum Rank : char {
     kLocal = '1',
     kModule = '2',
     kTask = '3',
-    kLibrary = '4',
-    kLoose = '5',
+    kUsed = '4', ///< predefined routines that the program calls somewhere
+    kLibrary = '5',
+    kLoose = '6',
     kOther = '7',
     kRare = '9'
 };
@@ -152,7 +153,7 @@ class Completer {
     char rankOf(const Symbol& symbol) const {
         const DataSymbol* data = dataOf(&symbol);
         if (data && data->storage == Storage::Signal) return kTask;
-        if (symbol.predefined) return kLibrary;
+        if (symbol.predefined) return symbol.used && routineOf(&symbol) ? kUsed : kLibrary;
         if (data && data->routine) return kLocal;
         return symbol.module == scope_.around().module ? kModule : kTask;
     }

@@ -86,6 +86,17 @@ TEST_CASE("query: an argument after a comma that ends its line, before other ins
     CHECK(labels(complete(program, 4)) == std::vector<std::string>{"trans", "rot", "robconf", "extax"});
 }
 
+TEST_CASE("query: instructions that the program uses come before others", "[query][completion]") {
+    const Program program({inMain("MoveL p10,v100,fine,gripper;\nWaitTime 1;\nm$1\ncount:=a$2;", kCell),
+                           "MODULE other\nPROC more()\nVAR num n;\nn:=ACos(1);\nENDPROC\nENDMODULE\n"});
+    const auto moves = labels(complete(program, 1));
+    REQUIRE(moves.size() > 3);
+    CHECK(moves[0] == "main");
+    CHECK(moves[1] == "more");
+    CHECK(moves[2] == "MoveL");
+    CHECK(labels(complete(program, 2)).front() == "ACos");
+}
+
 TEST_CASE("query: nothing is offered after the last required argument", "[query][completion]") {
     const Program program({inMain("shift 1,$1;\nshift 1,$2\nStop;\ncount:=Abs(1,$3);\nshift 1,\\$4;",
                                   "VAR num count;\nPROC shift(num by\\switch fast)\nENDPROC")});
