@@ -73,6 +73,20 @@ std::string Suggestions::inSeries(std::string_view written) {
     return "; predefined are '" + std::string(below) + "' and '" + std::string(above) + "'";
 }
 
+const NameLists& Suggestions::nameLists() {
+    if (task_.nameLists) return *task_.nameLists;
+    NameLists& lists = task_.nameLists.emplace();
+    for (size_t id = 0; id < task_.globals.size(); ++id)
+        if (task_.globals[id]) lists.global.push_back(static_cast<NameId>(id));
+    for (size_t id = 0; id < task_.configured.size(); ++id)
+        if (task_.configured[id]) lists.configured.push_back(static_cast<NameId>(id));
+    if (task_.task)
+        for (const Module* module : task_.task->modules)
+            state_.scopes[module->id]->names.forEach(
+                [&](NameId name, const Symbol*) { lists.ofModules.insert(name); });
+    return lists;
+}
+
 const Symbol* Suggestions::meantByForeign(std::string_view written, Wanted wanted) {
     for (const ForeignName& foreign : kForeignNames) {
         if (foreign.folded != written) continue;
@@ -129,19 +143,17 @@ Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
             isWanted(*symbol, wanted))
             consider(names_.folded(id), symbol->name, false, symbol);
     };
-    const auto considerTable = [&](const auto& table) { // by NameId
-        for (size_t id = 0; id < table.size(); ++id)
-            considerSymbol(static_cast<NameId>(id), table[id]);
-    };
     if (context_.routine)
         for (const NameId id : state_.declaredInRoutine)
             considerSymbol(id, at(state_.routineNames, id));
     scope = 1;
     own.forEach(considerSymbol);
     scope = 2;
-    considerTable(task_.globals);
+    for (const NameId id : nameLists().global)
+        considerSymbol(id, at(task_.globals, id));
     scope = 3;
-    considerTable(task_.configured);
+    for (const NameId id : nameLists().configured)
+        considerSymbol(id, at(task_.configured, id));
     // A name of one to three letters is near to everything of that length.
     scope = 4;
     constexpr size_t kShort = 4;

@@ -167,14 +167,7 @@ bool UnknownNames::reportTorn(TokenIndex token) {
 }
 
 std::pair<const Module*, const Symbol*> UnknownNames::localElsewhere(NameId name, Wanted wanted) {
-    if (!task_.task) return {};
-    if (!task_.localNames) {
-        task_.localNames.emplace();
-        for (const Module* module : task_.task->modules)
-            state_.scopes[module->id]->names.forEach(
-                [&](NameId local, const Symbol*) { task_.localNames->insert(local); });
-    }
-    if (!task_.localNames->contains(name)) return {};
+    if (!task_.task || !suggestions_.nameLists().ofModules.contains(name)) return {};
     for (const Module* module : task_.task->modules) {
         const Symbol* local =
             module == context_.module ? nullptr : state_.scopes[module->id]->names.find(name);
