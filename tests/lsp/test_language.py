@@ -364,6 +364,22 @@ class Outline(Language):
         self.assertGreater(len(sizes), 3)
 
 
+    def test_selection_in_a_deep_text(self):
+        """SelectionRange.parent nests: readers of JSON limit the depth. The innermost ranges and the whole stay."""
+        text = "MODULE m\nPROC main()\n" + "IF TRUE THEN\n" * 300 + "Stop;\n" + "ENDIF\n" * 300 + "ENDPROC\nENDMODULE\n"
+        self.client.change(self.document, 2, text)
+        step = self.client.request("textDocument/selectionRange", {"textDocument": {"uri": self.document},
+                                                                   "positions": [place(text, "Stop")]})[0]
+        parts = []
+        while step:
+            parts.append(part(text, step["range"]))
+            step = step.get("parent")
+        self.assertLessEqual(len(parts), 100)
+        self.assertEqual(parts[0], "Stop")
+        self.assertTrue(parts[-1].startswith("MODULE"))
+        self.assertEqual(parts, sorted(parts, key=len))
+
+
 class Tokens(Language):
     def decode(self, data):
         legend = self.connect().initialize()["capabilities"]["semanticTokensProvider"]["legend"]
