@@ -116,7 +116,7 @@ void Walker::errorClause(const ErrorClause& clause) {
                       containsToken(*tree_, clause, TokenKind::KwTrynext);
     const bool continues = list(clause.body);
     inHandler_ = handlerResumes_ = false;
-    if (!continues || jumps_ + ends_ != left || facts_.callsByName ||
+    if (!continues || jumps_ + ends_ != left || facts_.callsByName || !routine_->routineDecl->closed ||
         !reporter_.isOn(say::UnhandledError.code))
         return;
     facts_.suspicions.push_back({say::UnhandledError.code, tree_, tree_->range(clause.first), routine_->name,

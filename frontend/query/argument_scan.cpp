@@ -33,7 +33,8 @@ ArgumentScan::ArgumentScan(const Scope& scope, TokenIndex from, TokenIndex at)
     : scope_(scope), tree_(*scope.file().tree), from_(from), at_(at) {}
 
 TokenKind ArgumentScan::kind(TokenIndex t) const {
-    return t < tree_.tokens.size() ? tree_.tokens[t].kind : TokenKind::EndOfFile;
+    if (t >= tree_.tokens.size()) return TokenKind::EndOfFile;
+    return t + 1 == at_ ? kindWritten(tree_, t) : tree_.tokens[t].kind;
 }
 
 void ArgumentScan::run(const DataType& type) {
@@ -290,6 +291,8 @@ void ArgumentScan::expectedOf(const Frame& frame, Cursor& cursor) const {
     if (comparison && cursor.type.type && cursor.type.type->name == "errnum") cursor.errorNumber = true;
     if (frame.kind != Kind::Call) return;
     const auto& call = frame.call;
+    if (call.routine && call.parameter < 0 && !frame.optional)
+        cursor.expect = Expect::Nothing; // there is no more
     if (!call.routine || call.parameter < 0) return;
     const DataSymbol& param = *call.routine->params[static_cast<size_t>(call.parameter)];
     const bool atValue = frame.valueStart == at_;

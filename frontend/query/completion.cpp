@@ -21,14 +21,17 @@ using namespace syntax;
 
 namespace {
 
-/// First letters of sort texts: what is nearer and fits better comes first.
+/// First letters of sort texts: what is nearer and fits better comes first. Names that do not begin with the letters typed come after all
+/// that do (Completer::ranked).
 enum Rank : char {
+    kTyped = '/', ///< exactly what has been typed
     kBest = '0',
     kLocal = '1',
     kModule = '2',
     kTask = '3',
-    kLibrary = '4',
-    kLoose = '5',
+    kUsed = '4', ///< predefined routines that the program calls somewhere
+    kLibrary = '5',
+    kLoose = '6',
     kOther = '7',
     kRare = '9'
 };
@@ -126,13 +129,22 @@ class Completer {
 
     bool matches(std::string_view name) const { return fuzzyMatch(cursor_.prefix, name); }
 
+    /// The rank of a name that has to share the list with others.
+    char ranked(char rank, std::string_view name) const {
+        const std::string_view typed = cursor_.prefix;
+        if (typed.empty()) return rank;
+        const bool begins = name.size() >= typed.size() && equalsNoCase(name.substr(0, typed.size()), typed);
+        if (!begins) return static_cast<char>(rank - kBest + 'A');
+        return name.size() == typed.size() ? static_cast<char>(kTyped) : rank;
+    }
+
     CompletionItem& append(std::string label, ItemKind kind, char rank, std::string insertText) {
         // In large programs nearly all items are dropped: early, so that they need no room.
         if (list_.items.size() / 2 > options_.limit) keepBest();
         CompletionItem& item = list_.items.emplace_back();
         item.label = std::move(label);
         item.kind = kind;
-        item.sortText = rank + foldName(item.label);
+        item.sortText = ranked(rank, item.label) + foldName(item.label);
         item.filterText = item.label;
         item.insertText = std::move(insertText);
         return item;
@@ -141,13 +153,13 @@ class Completer {
     char rankOf(const Symbol& symbol) const {
         const DataSymbol* data = dataOf(&symbol);
         if (data && data->storage == Storage::Signal) return kTask;
-        if (symbol.predefined) return kLibrary;
+        if (symbol.predefined) return symbol.used && routineOf(&symbol) ? kUsed : kLibrary;
         if (data && data->routine) return kLocal;
         return symbol.module == scope_.around().module ? kModule : kTask;
     }
 
     CompletionItem* add(const Symbol& symbol, char rank, bool fits) {
-        if (isBeyond(rank, symbol.name) || !matches(symbol.name)) return nullptr;
+        if (isBeyond(ranked(rank, symbol.name), symbol.name) || !matches(symbol.name)) return nullptr;
         return &addItem(symbol, rank, fits);
     }
     CompletionItem& addItem(const Symbol& symbol, char rank, bool fits) {
@@ -252,7 +264,7 @@ class Completer {
         std::vector<FitRules> rules(wanted.begin(), wanted.end());
         const bool callFollows = nextCharacter() == '(';
         scope_.forEachVisible(cancel_, cursor_.prefix, [&](const Symbol& symbol) {
-            if (symbol.kind == SymbolKind::Type) return;
+            if (symbol.kind == SymbolKind::Type || equalsNoCase(symbol.name, cursor_.declares)) return;
             Fit fit = Fit::Misfit;
             for (const FitRules& one : rules)
                 fit = std::min(fit, one.of(symbol));
@@ -285,10 +297,10 @@ class Completer {
             rank = symbol.predefined ? kRare : kLoose;
         CompletionItem* item = nullptr;
         if (typed && fit == Fit::Exact) {
-            const char secondRank = rankOf(symbol);
-            if (isBeyond(rank, secondRank, symbol.name)) return;
+            const char firstRank = ranked(rank, symbol.name), secondRank = rankOf(symbol);
+            if (isBeyond(firstRank, secondRank, symbol.name)) return;
             item = &addItem(symbol, rank, true);
-            item->sortText = std::string{rank, secondRank} + seriesKey(symbol.name);
+            item->sortText = std::string{firstRank, secondRank} + seriesKey(symbol.name);
         } else {
             item = add(symbol, rank, fit != Fit::Reach);
         }
@@ -370,7 +382,7 @@ class Completer {
             const Type::Component& component = record.components[i];
             if (!matches(component.name)) continue;
             CompletionItem& item = append(component.name, ItemKind::Component, kBest, component.name);
-            item.sortText = fmt::format("0{:04}", i);
+            item.sortText = fmt::format("{}{:04}", ranked(kBest, component.name), i);
             item.detail = component.type ? component.type->name : "";
             Meaning meaning;
             meaning.record = &record;
@@ -387,7 +399,7 @@ class Completer {
             const bool value = !param->isSwitch && nextCharacter() != ':';
             CompletionItem& item =
                 append(param->name, ItemKind::OptionalArgument, kBest, param->name + (value ? ":=" : ""));
-            item.sortText = fmt::format("0{:04}", number++);
+            item.sortText = fmt::format("{}{:04}", ranked(kBest, param->name), number++);
             item.detail = parameterText(*param);
             item.key = keyOf(snapshot_, *param);
             if (value)

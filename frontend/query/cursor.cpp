@@ -55,7 +55,8 @@ class CursorReader {
 
   private:
     TokenKind kind(TokenIndex t) const {
-        return t < tree_.tokens.size() ? tree_.tokens[t].kind : TokenKind::EndOfFile;
+        if (t >= tree_.tokens.size()) return TokenKind::EndOfFile;
+        return t + 1 == at_ && !onNewLine(at_) ? kindWritten(tree_, t) : tree_.tokens[t].kind;
     }
 
     /// False: the offset is in something that is not a word, such as a number.
@@ -203,6 +204,7 @@ class CursorReader {
     void data(TokenIndex s) {
         if (s + 1 == at_) return type();
         if (s + 2 >= at_) return; // the new name
+        cursor_.declares = tree_.text(s + 2);
         DataType declared;
         declared.type = typeNamed(scope_, tree_.text(s + 1));
         int depth = 0;
@@ -315,6 +317,7 @@ class CursorReader {
 
     void loop(TokenIndex s, const DataType& number) {
         if (s + 1 >= at_) return;
+        cursor_.declares = tree_.text(s + 1);
         TokenIndex from = kNoToken;
         for (TokenIndex t = s + 2; t < at_; ++t) {
             const TokenKind k = kind(t);
@@ -408,6 +411,12 @@ class CursorReader {
 };
 
 } // namespace
+
+TokenKind kindWritten(const SyntaxTree& tree, TokenIndex token) {
+    if (tree.tokens[token].kind != TokenKind::Semicolon) return tree.tokens[token].kind;
+    const std::string_view text = tree.text(token);
+    return text == "," ? TokenKind::Comma : text == "." ? TokenKind::Dot : TokenKind::Semicolon;
+}
 
 Cursor cursorAt(const Scope& scope, uint32_t offset) {
     return CursorReader(scope, offset).read();

@@ -51,13 +51,19 @@ struct Cursor {
     syntax::ParamMode mode = syntax::ParamMode::In; ///< In: any expression
     std::optional<CallContext> call;                ///< the innermost argument list
     const sema::Type* record = nullptr;             ///< Component: of the value before the dot
-    std::vector<syntax::TokenKind> keywords;        ///< that may follow, besides
+    /// The name that the declaration or FOR around the offset gives: it has no value there yet.
+    std::string_view declares;
+    std::vector<syntax::TokenKind> keywords; ///< that may follow, besides
     /// Required parameters of which one is given here: `signaldi Signal | PERS bool PersBool`. Empty: there is one only.
     std::vector<const sema::DataSymbol*> alternatives;
     bool instruction = false;       ///< Keyword: an instruction may begin here, too
     bool optionalParameter = false; ///< after `?` and in Present: an optional parameter of the routine
     bool errorNumber = false;       ///< in the list of an ERROR clause, or compared with ERRNO
 };
+
+/// Kind of the last token before the offset as it is written: the parser reads a comma or dot that ends its line as a semicolon when
+/// an instruction follows in the next one, but the offset is where an argument or a component is about to be written.
+syntax::TokenKind kindWritten(const syntax::SyntaxTree& tree, syntax::TokenIndex token);
 
 /// `scope` is that of the offset.
 Cursor cursorAt(const Scope& scope, uint32_t offset);

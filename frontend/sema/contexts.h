@@ -4,6 +4,7 @@
 #include "frontend/sema/checker.h"
 #include "frontend/sema/names.h"
 
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -123,6 +124,12 @@ struct SignalUses {
     std::vector<std::shared_ptr<const FileSignalUses>> files;
 };
 
+/// The names that a task declares: its tables by NameId are large and nearly empty.
+struct NameLists {
+    std::vector<NameId> global, configured; ///< ascending
+    std::unordered_set<NameId> ofModules;   ///< LOCAL and global ones
+};
+
 /// Facts about a task. A Session keeps them between checks.
 struct TaskContext {
     Task* task = nullptr;
@@ -139,6 +146,7 @@ struct TaskContext {
     SignalUses signalUses;
     std::vector<const syntax::SyntaxTree*> brokenTrees; ///< with syntax errors
     std::unordered_set<NameId> maybeDeclared;           ///< names in declarations that could not be read
+    std::optional<NameLists> nameLists;                 ///< see Suggestions::nameLists
     std::unordered_set<NameId> reportedNames;           ///< unknown signals and options, reported once
     std::vector<UnknownName> unknownNames;
     size_t comparisonsLeft = kMaxComparisons; ///< of names with misspelt ones

@@ -78,6 +78,7 @@ NameId Interner::add(std::string_view name, uint32_t hash, size_t slot) {
     std::copy(name.begin(), name.end(), text_.data() + at + kHead);
     for (size_t i = 0; i < size; ++i)
         text_[at + kHead + size + i] = config::lowerByte(name[i], i > 0 ? name[i - 1] : '\0');
+    shapes_.push_back(shapeOf(folded(id)));
     slots_[slot] = {hash, static_cast<uint32_t>(at)};
     if (records_.size() * 2 > slots_.size()) grow();
     return id;

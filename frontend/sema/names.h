@@ -27,6 +27,7 @@ class Interner {
         const uint32_t length = wordAt(records_[id] + 4);
         return {text_.data() + records_[id] + kHead + length, length};
     }
+    WordShape shape(NameId id) const { return shapes_[id]; }
     size_t size() const { return records_.size(); }
 
   private:
@@ -48,6 +49,7 @@ class Interner {
     /// and that folded. All that is compared lies together: with many names each place is far from the processor.
     std::vector<char> text_;
     std::vector<uint32_t> records_; ///< where they begin, by number
+    std::vector<WordShape> shapes_; ///< by number
     std::vector<Slot> slots_;       ///< their number is a power of two
 };
 

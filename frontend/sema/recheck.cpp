@@ -117,6 +117,7 @@ void Analyzer::clearLooseEnds() {
     state_.task.signalUses = {};
     state_.task.reportedNames.clear();
     state_.task.maybeDeclared.clear();
+    state_.task.nameLists.reset();
     state_.task.brokenTrees.clear();
     for (const TaskFile& file : state_.task.files)
         if (file.broken) state_.task.brokenTrees.push_back(state_.program.trees[file.slot].get());

@@ -50,7 +50,7 @@ void RoutineChecker::checkRoutine(RoutineSymbol& symbol) {
         checkPart(Part::Error, clause->body);
     }
     checkPart(Part::Undo, decl.undo);
-    if (decl.routineKind == RoutineKind::Func && completes && !routine_.broken) {
+    if (decl.routineKind == RoutineKind::Func && decl.closed && completes && !routine_.broken) {
         if (!routine_.returnSeen) // not even in a handler
             report(say::FunctionWithoutReturn, range(decl.name), {symbol.name});
         else

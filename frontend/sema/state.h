@@ -4,6 +4,7 @@
 #include "frontend/sema/reports.h"
 
 #include <memory>
+#include <unordered_map>
 
 namespace rapid::sema {
 
@@ -29,7 +30,9 @@ struct State {
     Interner names;
     const Type* switchType = nullptr;
     std::vector<std::string> taskNames;
-    std::vector<Symbol*> predefined;                  ///< by NameId
+    std::vector<Symbol*> predefined; ///< by NameId
+    /// For names that nothing declared: what is predefined and near. It stays true, and an editor asks with every letter typed.
+    std::unordered_map<NameId, std::vector<NameId>> nearPredefined;
     std::vector<std::unique_ptr<ModuleScope>> scopes; ///< by Module::id
     bool keepsFacts = false;    ///< facts are kept when other files change: they must not share memory
     uint32_t lastStamp = 0;     ///< of a check of a file

@@ -73,6 +73,45 @@ std::string Suggestions::inSeries(std::string_view written) {
     return "; predefined are '" + std::string(below) + "' and '" + std::string(above) + "'";
 }
 
+const NameLists& Suggestions::nameLists() {
+    if (task_.nameLists) return *task_.nameLists;
+    NameLists& lists = task_.nameLists.emplace();
+    for (size_t id = 0; id < task_.globals.size(); ++id)
+        if (task_.globals[id]) lists.global.push_back(static_cast<NameId>(id));
+    for (size_t id = 0; id < task_.configured.size(); ++id)
+        if (task_.configured[id]) lists.configured.push_back(static_cast<NameId>(id));
+    if (task_.task)
+        for (const Module* module : task_.task->modules)
+            state_.scopes[module->id]->names.forEach(
+                [&](NameId name, const Symbol*) { lists.ofModules.insert(name); });
+    return lists;
+}
+
+const Symbol* Suggestions::meantByForeign(std::string_view written, Wanted wanted) {
+    for (const ForeignName& foreign : kForeignNames) {
+        if (foreign.folded != written) continue;
+        const Symbol* meant = at(state_.predefined, names_.intern(foreign.meant));
+        if (meant && isWanted(*meant, wanted) && scopes_.lookup(meant->nameId) == meant) return meant;
+    }
+    return nullptr;
+}
+
+/// Within the limit for a name of this length, in the order of their numbers.
+const std::vector<NameId>& Suggestions::nearPredefined(NameId name) {
+    const auto [found, isNew] = state_.nearPredefined.try_emplace(name);
+    if (!isNew) return found->second;
+    const std::string_view written = names_.folded(name);
+    const WordShape shape = names_.shape(name);
+    const unsigned limit = suggestionLimit(written.size());
+    for (size_t i = 0; i < state_.predefined.size(); ++i) {
+        const auto id = static_cast<NameId>(i);
+        if (state_.predefined[id] && mayBeNear(shape, names_.shape(id), limit) &&
+            editDistance(written, names_.folded(id), limit) <= limit)
+            found->second.push_back(id);
+    }
+    return found->second;
+}
+
 Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
     facts().open = true;
     const NameMap<Symbol>& own = state_.scopes[context_.module->id]->names;
@@ -80,12 +119,7 @@ Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
     if (task_.comparisonsLeft < names) return {};
     task_.comparisonsLeft -= names;
     const std::string_view written = names_.folded(name);
-    for (const ForeignName& foreign : kForeignNames) {
-        if (foreign.folded != written) continue;
-        const Symbol* meant = at(state_.predefined, names_.intern(foreign.meant));
-        if (meant && isWanted(*meant, wanted) && scopes_.lookup(meant->nameId) == meant)
-            return {meant->name, false};
-    }
+    if (const Symbol* meant = meantByForeign(written, wanted)) return {meant->name, false};
     unsigned limit = suggestionLimit(written.size());
     // The nearest scope first: on equal distance it wins, and within a scope the first in the alphabet.
     Suggestion best;
@@ -103,21 +137,23 @@ Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
         bestScope = scope;
         limit = distance;
     };
-    const auto considerSymbol = [&](const Symbol* symbol) {
-        if (symbol && symbol->nameId != name && !symbol->name.empty() && isWanted(*symbol, wanted))
-            consider(names_.folded(symbol->nameId), symbol->name, false, symbol);
+    const WordShape shape = names_.shape(name);
+    const auto considerSymbol = [&](NameId id, const Symbol* symbol) {
+        if (symbol && id != name && mayBeNear(shape, names_.shape(id), limit) && !symbol->name.empty() &&
+            isWanted(*symbol, wanted))
+            consider(names_.folded(id), symbol->name, false, symbol);
     };
     if (context_.routine)
         for (const NameId id : state_.declaredInRoutine)
-            considerSymbol(at(state_.routineNames, id));
+            considerSymbol(id, at(state_.routineNames, id));
     scope = 1;
-    own.forEach([&](NameId, const Symbol* symbol) { considerSymbol(symbol); });
+    own.forEach(considerSymbol);
     scope = 2;
-    for (const Symbol* symbol : task_.globals)
-        considerSymbol(symbol);
+    for (const NameId id : nameLists().global)
+        considerSymbol(id, at(task_.globals, id));
     scope = 3;
-    for (const DataSymbol* symbol : task_.configured)
-        considerSymbol(symbol);
+    for (const NameId id : nameLists().configured)
+        considerSymbol(id, at(task_.configured, id));
     // A name of one to three letters is near to everything of that length.
     scope = 4;
     constexpr size_t kShort = 4;
@@ -128,8 +164,8 @@ Suggestion Suggestions::suggestion(NameId name, Wanted wanted) {
         if (wanted == Wanted::Data)
             for (const Word& word : kValueWords)
                 consider(word.folded, word.spelling, true);
-        for (const Symbol* symbol : state_.predefined)
-            considerSymbol(symbol);
+        for (const NameId id : nearPredefined(name))
+            considerSymbol(id, state_.predefined[id]);
     }
     return near(written, limit) ? best : Suggestion();
 }

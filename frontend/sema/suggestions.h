@@ -25,11 +25,17 @@ class Suggestions : CheckerPart {
     std::string inSeries(std::string_view written);
     /// "trans.z" for "z", when one part of the parts of a record is named so; empty when none or several are.
     std::string deeperComponent(const Type& record, std::string_view name);
+    /// Put together when the first name is met that nothing declares.
+    const NameLists& nameLists();
     /// Null: none is near.
     const Type::Component* nearComponent(const Type& record, std::string_view name);
     const DataSymbol* nearOptional(const RoutineSymbol& routine, NameId name);
 
   private:
+    /// The predefined name for a word of other languages; null: it is not one.
+    const Symbol* meantByForeign(std::string_view written, Wanted wanted);
+    const std::vector<NameId>& nearPredefined(NameId name);
+
     Scopes& scopes_;
 };
 

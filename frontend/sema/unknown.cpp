@@ -21,6 +21,18 @@ namespace {
 constexpr TokenSet kDeclaring = {TokenKind::KwVar,  TokenKind::KwPers, TokenKind::KwConst, TokenKind::KwProc,
                                  TokenKind::KwFunc, TokenKind::KwTrap, TokenKind::KwRecord};
 
+/// `(num n`, `(\switch fast`, `(VAR num n`: the beginning of parameters, which a call does not have.
+bool beginsParameters(const SyntaxTree& tree, size_t token) {
+    constexpr TokenSet kModes = {TokenKind::KwVar, TokenKind::KwPers, TokenKind::KwInout};
+    const auto kind = [&](size_t t) {
+        return t < tree.tokens.size() ? tree.tokens[t].kind : TokenKind::EndOfFile;
+    };
+    if (kind(token) != TokenKind::LeftParen) return false;
+    const size_t first = kind(token + 1) == TokenKind::Backslash ? token + 2 : token + 1;
+    return kModes.has(kind(first)) ||
+           (kind(first) == TokenKind::Identifier && kind(first + 1) == TokenKind::Identifier);
+}
+
 /// A declaration that begins as it should, from its word on.
 bool isWhole(const SyntaxTree& tree, size_t word) {
     constexpr TokenSet kAfterName = {TokenKind::Semicolon, TokenKind::Assign,     TokenKind::LeftBrace,
@@ -92,18 +104,25 @@ void UnknownNames::mayDeclareTorn(const SyntaxTree& tree, TokenIndex word) {
 }
 
 // After a syntax error a name may be missing because its declaration could not be read: its use is not the
-// mistake. Such a declaration still shows two words in a row, the second of which is the name.
+// mistake. Such a declaration still shows two words in a row, the second of which is the name, and the first is not an
+// instruction, as in `MoveL p10`; or parameters follow the name.
 bool UnknownNames::mayReportUnknown(NameId name) {
     if (context_.module) facts().open = true;
+    const auto isInstruction = [&](std::string_view word) {
+        const Symbol* symbol = at(state_.predefined, names_.intern(word));
+        return symbol && symbol->kind == SymbolKind::Routine;
+    };
     for (const SyntaxTree* tree : std::exchange(task_.brokenTrees, {})) {
-        for (size_t i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
+        for (TokenIndex i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
             const TokenKind before = tree->tokens[i].kind;
             const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
                                   before == TokenKind::KwTrap || before == TokenKind::KwRecord;
-            if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier)
-                task_.maybeDeclared.insert(names_.intern(tree->text(static_cast<TokenIndex>(i + 1))));
-            if (kDeclaring.has(before) && !isWhole(*tree, i))
-                mayDeclareTorn(*tree, static_cast<TokenIndex>(i));
+            if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier &&
+                !isInstruction(tree->text(i)))
+                task_.maybeDeclared.insert(names_.intern(tree->text(i + 1)));
+            if (before == TokenKind::Identifier && beginsParameters(*tree, i + 1))
+                task_.maybeDeclared.insert(names_.intern(tree->text(i)));
+            if (kDeclaring.has(before) && !isWhole(*tree, i)) mayDeclareTorn(*tree, i);
         }
     }
     return !task_.maybeDeclared.contains(name);
@@ -147,6 +166,16 @@ bool UnknownNames::reportTorn(TokenIndex token) {
     return true;
 }
 
+std::pair<const Module*, const Symbol*> UnknownNames::localElsewhere(NameId name, Wanted wanted) {
+    if (!task_.task || !suggestions_.nameLists().ofModules.contains(name)) return {};
+    for (const Module* module : task_.task->modules) {
+        const Symbol* local =
+            module == context_.module ? nullptr : state_.scopes[module->id]->names.find(name);
+        if (local && suggestions_.isWanted(*local, wanted)) return {module, local};
+    }
+    return {};
+}
+
 Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, NameId name, Wanted wanted,
                                   std::string_view otherHint) {
     if (!mayReportUnknown(name) || reportTorn(token)) return Meant::Unknown;
@@ -175,10 +204,7 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
     const bool routine = wanted != Wanted::Data && wanted != Wanted::Type;
     if (routine && context_.routine && best.name.empty() && !routine_.unknownRoutines.insert(name).second)
         return meant;
-    for (const Module* module : task_.task ? task_.task->modules : std::vector<Module*>()) {
-        const Symbol* local =
-            module == context_.module ? nullptr : state_.scopes[module->id]->names.find(name);
-        if (!local || !suggestions_.isWanted(*local, wanted)) continue;
+    if (const auto [module, local] = localElsewhere(name, wanted); local) {
         noteDeclared(report(say::LocalElsewhere, range(token), {text(token), module->name}), *local);
         return Meant::Unknown;
     }

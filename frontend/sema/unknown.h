@@ -23,6 +23,8 @@ class UnknownNames : CheckerPart {
 
   private:
     bool reportTorn(syntax::TokenIndex token);
+    /// A LOCAL name of another module, and that module; null: none has it.
+    std::pair<const Module*, const Symbol*> localElsewhere(NameId name, Wanted wanted);
     void mayDeclareTorn(const syntax::SyntaxTree& tree, syntax::TokenIndex word);
     bool countedAbove(syntax::TokenIndex token, NameId name);
     void reportMayBeDeclared(syntax::TokenIndex token, const std::string& hint);

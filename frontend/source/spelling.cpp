@@ -36,4 +36,16 @@ unsigned editDistance(std::string_view a, std::string_view b, unsigned limit) {
     return std::min((*last)[b.size()], limit + 1);
 }
 
+WordShape shapeOf(std::string_view lowerCase) {
+    constexpr unsigned kDigits = 26, kRest = 27;
+    WordShape shape{static_cast<uint32_t>(lowerCase.size()), 0};
+    for (const char c : lowerCase) {
+        const unsigned bit = c >= 'a' && c <= 'z'   ? static_cast<unsigned>(c - 'a')
+                             : c >= '0' && c <= '9' ? kDigits
+                                                    : kRest;
+        shape.letters |= 1u << bit;
+    }
+    return shape;
+}
+
 } // namespace rapid

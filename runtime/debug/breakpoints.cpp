@@ -184,11 +184,16 @@ bool Breakpoints::stops(Task& task, Frame* at) {
     return true;
 }
 
-bool Breakpoints::isAt(const Frame& at) const {
-    return std::any_of(all_.begin(), all_.end(), [&at, this](const Breakpoint& breakpoint) {
+bool Breakpoints::stopsBackward(const Frame& at) {
+    std::vector<int> hits;
+    for (const Breakpoint& breakpoint : all_) {
+        if (breakpoint.accepts) continue;
         const std::vector<int> here = stopsAt(breakpoint, *at.routine);
-        return !breakpoint.accepts && std::find(here.begin(), here.end(), at.statement) != here.end();
-    });
+        if (std::find(here.begin(), here.end(), at.statement) != here.end()) hits.push_back(breakpoint.id);
+    }
+    if (hits.empty()) return false;
+    hits_ = std::move(hits);
+    return true;
 }
 
 bool Breakpoints::dataStops(Task& task, Frame* at) {

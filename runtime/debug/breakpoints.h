@@ -60,8 +60,8 @@ class Breakpoints {
 
     /// Whether one of them stops the task before the statement of `at`; asks all of that statement.
     bool stops(Task& task, Frame* at);
-    /// Whether one without a condition is there.
-    bool isAt(const Frame& at) const;
+    /// Whether one without a condition is there, for a task that comes to the statement backwards.
+    bool stopsBackward(const Frame& at);
     /// Whether watched data have changed, and that stops the task.
     bool dataStops(Task& task, Frame* at);
     /// The breakpoints that stopped last, and whether they are at routines; what a data breakpoint saw.

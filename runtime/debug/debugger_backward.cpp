@@ -100,10 +100,12 @@ std::string Debugger::runBackward(Task& task) {
 bool Debugger::continuesBackward(Task& task) {
     State& state = stateOf(task);
     if (!std::exchange(state.backwardOn, false)) return false;
-    if (stopReason_ != StopReason::Step || state.backwardTop || state.standing == nullptr ||
-        breakpoints_.isAt(*state.standing))
+    if (stopReason_ != StopReason::Step || state.standing == nullptr) return false;
+    if (breakpoints_.stopsBackward(*state.standing)) {
+        stopReason_ = StopReason::Breakpoint;
         return false;
-    return runBackward(task).empty();
+    }
+    return !state.backwardTop && runBackward(task).empty();
 }
 
 std::string Debugger::refusalOfSync(const Task& task, const Frame& at, int32_t first, int32_t end) {

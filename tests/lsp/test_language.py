@@ -364,6 +364,22 @@ class Outline(Language):
         self.assertGreater(len(sizes), 3)
 
 
+    def test_selection_in_a_deep_text(self):
+        """SelectionRange.parent nests: readers of JSON limit the depth. The innermost ranges and the whole stay."""
+        text = "MODULE m\nPROC main()\n" + "IF TRUE THEN\n" * 300 + "Stop;\n" + "ENDIF\n" * 300 + "ENDPROC\nENDMODULE\n"
+        self.client.change(self.document, 2, text)
+        step = self.client.request("textDocument/selectionRange", {"textDocument": {"uri": self.document},
+                                                                   "positions": [place(text, "Stop")]})[0]
+        parts = []
+        while step:
+            parts.append(part(text, step["range"]))
+            step = step.get("parent")
+        self.assertLessEqual(len(parts), 100)
+        self.assertEqual(parts[0], "Stop")
+        self.assertTrue(parts[-1].startswith("MODULE"))
+        self.assertEqual(parts, sorted(parts, key=len))
+
+
 class Tokens(Language):
     def decode(self, data):
         legend = self.connect().initialize()["capabilities"]["semanticTokensProvider"]["legend"]
@@ -526,6 +542,34 @@ class Formatting(Language):
             "textDocument": {"uri": self.document}, "position": {"line": 4, "character": 0}, "ch": "\n",
             "options": {"tabSize": 2, "insertSpaces": True}})
         self.assertFalse(any("ENDIF" in e["newText"] for e in again))
+
+    def on_type(self, text, place, typed, version, spaces=True):
+        self.client.change(self.document, version, text)
+        edits = self.client.request("textDocument/onTypeFormatting", {
+            "textDocument": {"uri": self.document}, "position": {"line": place[0], "character": place[1]}, "ch": typed,
+            "options": {"tabSize": 4, "insertSpaces": spaces}})
+        return edited(text, edits).split("\n")
+
+    def test_typing_keeps_the_indentation_of_the_file(self):
+        """docs/editors.md: the line typed is laid out inside; its indentation is that of the file, unless the line above has that of
+        rapidc fmt."""
+        version = 2
+        for one in ("    ", "\t"):
+            lines = ["MODULE m", one + "PROC main()", 2 * one + "IF TRUE THEN", 3 * one + 'TPWrite   "x" ;', 2 * one + "ENDIF",
+                     one + "ENDPROC", "ENDMODULE", ""]
+            typed = self.on_type("\n".join(lines), (3, len(lines[3])), ";", version, one != "\t")
+            self.assertEqual(typed[3], 3 * one + 'TPWrite "x";')
+            opened = self.on_type("\n".join(lines[:3] + [""] + lines[5:]), (3, 0), "\n", version + 1, one != "\t")
+            self.assertEqual(opened[3:5], [3 * one, 2 * one + "ENDIF"])
+            version += 2
+        laid_out = 'MODULE m\n   PROC main()\n      TPWrite "a";\n  TPWrite   "b";\n   ENDPROC\nENDMODULE\n'
+        self.assertEqual(self.on_type(laid_out, (3, 16), ";", version)[3], '      TPWrite "b";')
+
+    def test_a_block_at_the_margin_takes_the_options(self):
+        """FormattingOptions.tabSize and insertSpaces, where the text shows no indentation yet."""
+        text = "PROC main()\n\n"
+        self.assertEqual(self.on_type(text, (1, 0), "\n", 2)[1:3], ["    ", "ENDPROC"])
+        self.assertEqual(self.on_type(text, (1, 0), "\n", 3, False)[1:3], ["\t", "ENDPROC"])
 
 
 class Configuration(Language):

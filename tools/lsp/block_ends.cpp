@@ -101,6 +101,19 @@ std::string indentOf(std::string_view line) {
     return std::string(line.substr(0, std::min(line.find_first_not_of(" \t"), line.size())));
 }
 
+/// By how much a line (from 1) is moved in from the one around it; `otherwise` when none is.
+std::string stepOf(const SourceFile& file, uint32_t line, const std::string& otherwise) {
+    constexpr uint32_t kFar = 1000; // lines
+    const std::string own = indentOf(file.lineText(line));
+    for (uint32_t above = line - 1; above > 0 && line - above < kFar; --above) {
+        const std::string_view text = file.lineText(above);
+        const std::string outer = indentOf(text);
+        if (outer.size() == text.size() || outer.size() >= own.size() || !own.starts_with(outer)) continue;
+        return own.substr(outer.size());
+    }
+    return otherwise;
+}
+
 } // namespace
 
 std::optional<std::vector<TextEdit>> endOfBlock(const SourceFile& file, uint32_t line,
@@ -109,11 +122,11 @@ std::optional<std::vector<TextEdit>> endOfBlock(const SourceFile& file, uint32_t
     const std::string_view above = file.lineText(line), here = file.lineText(line + 1);
     const Block* block = begunBy(wordsOf(above));
     if (!block || !rapid::config::trimmed(here).empty() || !lacksEnd(file, line, *block)) return {};
-    const std::string indent = indentOf(above);
+    const std::string indent = indentOf(above), inside = indent + stepOf(file, line, step);
     const uint32_t start = file.lineStart(line + 1), end = start + static_cast<uint32_t>(here.size());
     const std::string lineEnd = file.text().find("\r\n") == std::string_view::npos ? "\n" : "\r\n";
     std::vector<TextEdit> edits;
-    if (here != indent + step) edits.push_back({{start, end}, indent + step});
+    if (here != inside) edits.push_back({{start, end}, inside});
     // On a line of its own below, so that the cursor stays where it is.
     if (line + 1 < file.lineCount()) {
         const uint32_t next = file.lineStart(line + 2);

@@ -10,6 +10,7 @@
 #include "tools/lsp/block_ends.h"
 #include "tools/lsp/requests.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace lsp {
@@ -76,6 +77,31 @@ std::vector<TextEdit> editsFor(State& state, const Target& target, uint32_t firs
     return joined(result.edits);
 }
 
+/// First letter of the line (from 1), or its end.
+uint32_t beginOf(const rapid::SourceFile& file, uint32_t line) {
+    const std::string_view text = file.lineText(line);
+    return file.lineStart(line) + static_cast<uint32_t>(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+/// A line (from 1) that has just been typed. Its indentation changes only when the line before it is as `rapidc fmt` indents it: most
+/// files have an indentation of their own.
+std::vector<TextEdit> editsOfTypedLine(State& state, const Target& target, uint32_t line) {
+    const rapid::SourceFile& file = target.positions->file();
+    uint32_t before = line - 1;
+    while (before > 0 && beginOf(file, before) == file.lineStart(before) + file.lineText(before).size())
+        --before;
+    std::vector<TextEdit> edits = editsFor(state, target, std::max(before, 1u), line);
+    const auto indents = [&](const TextEdit& edit, uint32_t of) {
+        return edit.range.begin >= file.lineStart(of) && edit.range.end <= beginOf(file, of);
+    };
+    const bool own = before > 0 && std::any_of(edits.begin(), edits.end(),
+                                               [&](const TextEdit& edit) { return indents(edit, before); });
+    std::erase_if(edits, [&](const TextEdit& edit) {
+        return edit.range.begin < file.lineStart(line) || (own && indents(edit, line));
+    });
+    return edits;
+}
+
 } // namespace
 
 Json formatting(State& state, const Json& params) {
@@ -97,16 +123,18 @@ Json onTypeFormatting(State& state, const Json& params) {
     const Position position = positionOf(field(params, "position"));
     const std::string typed = textField(params, "ch");
     if (!target.tree) return Json::array();
+    const rapid::SourceFile& file = target.positions->file();
     if (typed == "\n" && position.line > 0) {
-        const format::FormatSettings settings = settingsFor(state, target.path);
-        const std::string step = settings.tabs ? "\t" : std::string(settings.indent, ' ');
-        const rapid::SourceFile& file = target.positions->file();
+        const Json& options = objectField(params, "options");
+        const auto columns = std::clamp<int64_t>(integerField(options, "tabSize"), 1, 16);
+        const std::string step =
+            boolField(options, "insertSpaces", true) ? std::string(static_cast<size_t>(columns), ' ') : "\t";
         if (const auto edits = endOfBlock(file, position.line, step))
             return state.edits(*target.positions, *edits);
-        return state.edits(*target.positions, editsFor(state, target, position.line, position.line));
+        return state.edits(*target.positions, editsOfTypedLine(state, target, position.line));
     }
-    if (typed == ";")
-        return state.edits(*target.positions, editsFor(state, target, position.line + 1, position.line + 1));
+    if (typed == ";" && position.line < file.lineCount())
+        return state.edits(*target.positions, editsOfTypedLine(state, target, position.line + 1));
     return Json::array();
 }
 

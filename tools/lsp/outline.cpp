@@ -109,6 +109,9 @@ Json foldingRange(State& state, const Json& params) {
     return out;
 }
 
+/// Each is an object inside of another one, and readers of JSON limit their depth (to 128, for example).
+constexpr std::ptrdiff_t kMostSelections = 100;
+
 Json selectionRange(State& state, const Json& params) {
     const Target target = state.target(params);
     Json out = Json::array();
@@ -117,7 +120,9 @@ Json selectionRange(State& state, const Json& params) {
         const uint32_t offset = target.positions->offset(place);
         Json around;
         if (target.isModule()) {
-            const auto ranges = query::selectionRanges(*target.view, offset);
+            auto ranges = query::selectionRanges(*target.view, offset);
+            if (std::ssize(ranges) > kMostSelections) // the innermost ones and the file
+                ranges.erase(ranges.begin() + kMostSelections - 1, ranges.end() - 1);
             for (size_t i = ranges.size(); i-- > 0;) {
                 Json next{{"range", toJson(target.positions->range(ranges[i]))}};
                 if (!around.is_null()) next["parent"] = std::move(around);

@@ -145,7 +145,8 @@ void Reports::missing(std::string_view expected) {
 }
 
 bool Reports::mayReportEnd() {
-    return in_.kind() != TokenKind::EndOfFile || !std::exchange(endReported_, true);
+    if (in_.kind() == TokenKind::EndOfFile) return !std::exchange(endReported_, true);
+    return std::exchange(endReportedAt_, in_.pos()) != in_.pos();
 }
 
 void Reports::reportTooDeep() {

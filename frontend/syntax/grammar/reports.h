@@ -97,7 +97,8 @@ class Reports {
     void forgetUnread() { lastUnread_ = kNowhere; }
     /// Nothing follows from what names and types in the line of this place seem to be.
     void noteUnclear(uint32_t place);
-    /// Whether it is worth saying that the file ends too early: once.
+    /// Whether it is worth saying that a block is not closed before this token, or that the file ends too early: once, as one edit
+    /// there closes everything.
     bool mayReportEnd();
 
     void mark(Mark cause, TokenIndex token) { marks_[static_cast<size_t>(cause)] = token; }
@@ -122,7 +123,8 @@ class Reports {
     LexicalMistakes& lexical_;
     TornWords& torn_;
     bool panic_ = false;
-    bool endReported_ = false; ///< that the file ends too early
+    bool endReported_ = false;            ///< that the file ends too early
+    TokenIndex endReportedAt_ = kNoToken; ///< the token before which a block is not closed
     size_t errors_ = 0;
     size_t unreadable_ = 0;
     uint32_t lastUnread_ =

@@ -310,16 +310,19 @@ void RoutineParser::closeRoutine(RoutineDecl* routine, TokenIndex opening, bool 
     const RoutineWords words = wordsOf(routine->routineKind);
     constexpr TokenSet kEnds = {K::KwEndproc, K::KwEndfunc, K::KwEndtrap};
     if (accept(words.end) || braced) return;
-    if (!reports().mayReportEnd()) return;
-    const std::string expected(tokenText(words.end));
-    diag::Diagnostic* diagnostic = report(say::MissingBlockEnd, pos(), {describe(pos()), expected});
-    note(diagnostic, opening, std::string(words.name) + " begins here");
+    routine->closed = false;
     const bool endsModule = kind() == K::KwEndmodule &&
                             (peek() == K::KwEndmodule || ahead().startsDeclaration(pos() + 1)) &&
                             peek() != K::KwModule;
-    if (!kEnds.has(kind()) && !isMarked(Mark::WrongEnd) && !endsModule) return;
+    const bool isOtherEnd = kEnds.has(kind()) || isMarked(Mark::WrongEnd) || endsModule;
+    if (!reports().mayReportEnd() && !isOtherEnd) return;
+    const std::string expected(tokenText(words.end));
+    diag::Diagnostic* diagnostic = report(say::MissingBlockEnd, pos(), {describe(pos()), expected});
+    note(diagnostic, opening, std::string(words.name) + " begins here");
+    if (!isOtherEnd) return;
     fix(diagnostic, range(pos()), expected, false);
     take();
+    routine->closed = true;
 }
 
 } // namespace rapid::syntax

@@ -26,12 +26,16 @@ namespace {
 constexpr Time kLoadingStart = kSecond / 50;
 constexpr Time kLoadingPerKib = kSecond / 1000;
 
+/// The RAPID path with its device: HOME: when the program names none (an editor finds the file by it).
 std::string written(const String& directory, const String* file) {
     std::string text(directory.view());
-    if (file == nullptr) return text;
-    const std::string_view name = file->view();
-    if (!text.empty() && text.back() != '/' && name.substr(0, 1) != "/") text += '/';
-    return text + std::string(name);
+    if (file != nullptr) {
+        const std::string_view name = file->view();
+        if (!text.empty() && text.back() != '/' && name.substr(0, 1) != "/") text += '/';
+        text += name;
+    }
+    if (text.find(':') != std::string::npos) return text;
+    return (text.substr(0, 1) == "/" ? "HOME:" : "HOME:/") + text;
 }
 
 bool hostPath(TaskCore* task, const String& directory, const String* file, std::string& path) {

@@ -22,6 +22,15 @@ def test_names_and_parts(a):
         equal(a.value(expression), value, expression)
 
 
+def test_hidden_data_can_be_evaluated(a):
+    """Contract 10: evaluateName leads to the variable itself, although a parameter hides its name."""
+    a.start("hides.modx", [line_of("hides.modx", "! inner")])
+    a.stopped("breakpoint")
+    for scope, value in (("Module", "1"), ("Parameters", "5")):
+        found = a.scope(scope)["level"]
+        equal((found["value"], a.value(found["evaluateName"])), (value, value), scope)
+
+
 def test_operators_and_calls(a):
     at_inside(a)
     for expression, value in (("1 + 2 * 3", "7"), ("count * 2 + 1", "5"), ("count = 2 AND NOT busy", "TRUE"),
@@ -86,6 +95,13 @@ def test_console_executes_instructions(a):
     a.ask("setBreakpoints", source={"path": path("part.modx")}, breakpoints=[])
     a.go()
     equal(a.run_out()[3:5], ["abc", "count 41"])
+
+
+def test_console_evaluates_functions_with_optional_arguments(a):
+    """Contract 11: an expression, although `:=` is in its parentheses."""
+    at_inside(a)
+    equal(a.value("CPos(\\Tool:=tool0 \\WObj:=wobj0) = CPos()", "repl"), "TRUE")
+    equal(a.value('Abs(-5) + Distance(CPos(\\Tool:=tool0), CPos())', "repl"), "5")
 
 
 def test_evaluation_without_end(a):

@@ -169,6 +169,18 @@ def test_reverse_continue(a):
     equal(tcp[1], 0, "y of the arm")
 
 
+def test_reverse_continue_to_a_breakpoint(a):
+    """Contract 7 and 13: the stop is that of the breakpoint, with its number."""
+    end = line_of("moves.modx", "! end")
+    a.start("moves.modx", [end])
+    a.stopped("breakpoint")
+    number = a.set_lines("moves.modx", [P2, end])[0]["id"]
+    a.go("reverseContinue")
+    equal(a.stopped("breakpoint", P2)["hitBreakpointIds"], [number])
+    a.go("reverseContinue")
+    a.stopped("step", P1)
+
+
 def test_step_by_move(a):
     a.start("moves.modx", stopOnEntry=True)
     a.stopped("entry", P1)
@@ -222,6 +234,21 @@ def test_breakpoint_in_a_module_to_be_loaded(a):
     a.refused("source", sourceReference=99999)
     a.go()
     equal(a.run_out(), ["added"])
+
+
+def test_breakpoint_in_a_module_loaded_without_device(a):
+    """Manual, Load: a path without device is one of HOME:. The frame in such a module has its file."""
+    added = path("home/added.modx")
+    a.initialize()
+    launched = a.send("launch", {"program": path("loads_plain.modx"), "home": os.path.join(HERE, "home")})
+    a.event("initialized")
+    equal(a.set_lines(added, [ADDED])[0]["verified"], False)
+    a.ask("configurationDone")
+    a.answer(launched)
+    equal(a.stopped("breakpoint", ADDED)["frame"]["source"]["path"], added)
+    equal(a.event("breakpoint")["breakpoint"]["verified"], True)
+    a.go()
+    a.run_out()
 
 
 def test_loaded_source_events(a):

@@ -72,6 +72,64 @@ TEST_CASE("query: arguments of a movement by their type", "[query][completion]")
     CHECK_FALSE(has(frame, "gripper"));
 }
 
+TEST_CASE("query: an argument after a comma that ends its line, before other instructions",
+          "[query][completion]") {
+    const Program program(
+        {inMain("MoveL p10,$1\nStop;\nMoveL p10,v100, $2\nTPWrite \"x\";\nMoveL p10,v100,fine,\n$3TPWrite "
+                "\"y\";\np10.$4\nStop;",
+                kCell)});
+    CHECK(complete(program, 1).items.front().label == "slow");
+    CHECK_FALSE(has(complete(program, 1), "MoveJ"));
+    CHECK(has(complete(program, 2), "z10"));
+    CHECK_FALSE(has(complete(program, 2), "TPWrite"));
+    CHECK(has(complete(program, 3), "TPWrite")); // the next line begins an instruction
+    CHECK(labels(complete(program, 4)) == std::vector<std::string>{"trans", "rot", "robconf", "extax"});
+}
+
+TEST_CASE("query: instructions that the program uses come before others", "[query][completion]") {
+    const Program program({inMain("MoveL p10,v100,fine,gripper;\nWaitTime 1;\nm$1\ncount:=a$2;", kCell),
+                           "MODULE other\nPROC more()\nVAR num n;\nn:=ACos(1);\nENDPROC\nENDMODULE\n"});
+    const auto moves = labels(complete(program, 1));
+    REQUIRE(moves.size() > 3);
+    CHECK(moves[0] == "main");
+    CHECK(moves[1] == "more");
+    CHECK(moves[2] == "MoveL");
+    CHECK(labels(complete(program, 2)).front() == "ACos");
+}
+
+TEST_CASE("query: nothing is offered after the last required argument", "[query][completion]") {
+    const Program program({inMain("shift 1,$1;\nshift 1,$2\nStop;\ncount:=Abs(1,$3);\nshift 1,\\$4;",
+                                  "VAR num count;\nPROC shift(num by\\switch fast)\nENDPROC")});
+    for (const int marker : {1, 2, 3})
+        CHECK(complete(program, marker).items.empty());
+    CHECK(labels(complete(program, 4)) == std::vector<std::string>{"fast"});
+}
+
+TEST_CASE("query: names that begin with the letters typed come first", "[query][completion]") {
+    const Program program(
+        {inMain("mo$1\nstop$2\ncount:=a$3;", "VAR num count;\nVAR num myOffset;\nVAR num xAbs;")});
+    const auto moves = labels(complete(program, 1));
+    CHECK(moves.front().starts_with("Mo"));
+    const auto other = std::find(moves.begin(), moves.end(), "myOffset");
+    REQUIRE(other != moves.end());
+    CHECK(std::find(moves.begin(), other, "MoveL") != other);
+    CHECK(complete(program, 2).items.front().label == "Stop"); // written whole
+    const auto values = labels(complete(program, 3));
+    const auto scattered = std::find(values.begin(), values.end(), "xAbs");
+    REQUIRE(scattered != values.end());
+    CHECK(std::find(values.begin(), scattered, "Abs") != scattered);
+}
+
+TEST_CASE("query: a declaration does not offer its own name as its value", "[query][completion]") {
+    const Program program({inMain("VAR num own:=$1;\nFOR loop FROM $2 TO 3 DO\nENDFOR",
+                                  "VAR num count;\nCONST num limit:=$3;")});
+    CHECK(has(complete(program, 1), "count"));
+    CHECK_FALSE(has(complete(program, 1), "own"));
+    CHECK(has(complete(program, 2), "own"));
+    CHECK_FALSE(has(complete(program, 2), "loop"));
+    CHECK_FALSE(has(complete(program, 3), "limit"));
+}
+
 TEST_CASE("query: speeds are offered in the order of their numbers", "[query][completion]") {
     const Program program({inMain("MoveL p10,v$1", kCell)});
     const auto found = labels(complete(program));

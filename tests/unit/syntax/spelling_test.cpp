@@ -60,3 +60,18 @@ TEST_CASE("the distance of two words is given up to the limit", "[source]") {
     CHECK(editDistance(std::string(63, 'a'), std::string(62, 'a'), 2) == 1);
     CHECK(editDistance(std::string(64, 'a'), std::string(64, 'a'), 2) == 3); // too long to measure
 }
+
+TEST_CASE("the shapes of two words rule out only what is far", "[source]") {
+    std::vector<std::string> all = words();
+    for (const char* word : {"v100", "v1000", "z50", "a_b", "ab_", "p10_x", "\xC3\xA4nd", "veloc1ty"})
+        all.emplace_back(word);
+    for (const std::string& a : all)
+        for (const std::string& b : all)
+            for (unsigned limit = 1; limit <= 3; ++limit) {
+                if (byDefinition(a, b) > limit) continue;
+                INFO(a << " " << b << " limit " << limit);
+                CHECK(rapid::mayBeNear(rapid::shapeOf(a), rapid::shapeOf(b), limit));
+            }
+    CHECK_FALSE(rapid::mayBeNear(rapid::shapeOf("velocity"), rapid::shapeOf("distance"), 2));
+    CHECK_FALSE(rapid::mayBeNear(rapid::shapeOf("ab"), rapid::shapeOf("abbbb"), 2));
+}

@@ -11,14 +11,18 @@ namespace rapidc::dap {
 
 namespace {
 
-/// "n := 3", "TPWrite \"x\";": instructions, not an expression.
+/// "n := 3", "TPWrite \"x\";": instructions, not an expression. In parentheses `:=` gives an optional argument of a function.
 bool looksLikeInstructions(std::string_view text) {
     text = rt::trimmed(text);
     if (!text.empty() && text.back() == ';') return true;
     bool inText = false;
+    int depth = 0;
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
         if (text[i] == '"') inText = !inText;
-        if (!inText && text[i] == ':' && text[i + 1] == '=') return true;
+        if (inText) continue;
+        if (text[i] == '(') ++depth;
+        if (text[i] == ')') --depth;
+        if (depth <= 0 && text[i] == ':' && text[i + 1] == '=') return true;
     }
     return false;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <deque>
 #include <fmt/format.h>
+#include <set>
 
 namespace rapidc::dap {
 
@@ -72,24 +73,36 @@ Json Variables::scopes(rt::Task& task, rt::Frame* frame) {
     return {{"scopes", std::move(list)}};
 }
 
-std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
+std::vector<Variables::Child> Variables::routineData(const Node& node, bool parameters) const {
     std::vector<Child> list;
-    rt::Debugger& debugger = context_.debugger();
-    if (node.scope == Scope::Locals || node.scope == Scope::Parameters) {
-        if (node.frame == nullptr) return list;
-        for (rt::DebugVariable& variable : debugger.locals({rt::placeOf(node.frame), node.frame, false}))
-            if (variable.isParameter == (node.scope == Scope::Parameters))
-                list.push_back({variable.name, variable.name, std::move(variable)});
-        if (node.scope == Scope::Locals)
-            for (ConstantText& constant :
-                 constantsOf(context_.program->compilation(), node.task->index(), *node.frame->routine))
-                list.push_back({constant.name, constant.name, {}, constant.value, constant.type});
-        return list;
-    }
+    if (node.frame == nullptr) return list;
+    for (rt::DebugVariable& variable :
+         context_.debugger().locals({rt::placeOf(node.frame), node.frame, false}))
+        if (variable.isParameter == parameters)
+            list.push_back({variable.name, variable.name, std::move(variable)});
+    if (!parameters)
+        for (ConstantText& constant :
+             constantsOf(context_.program->compilation(), node.task->index(), *node.frame->routine))
+            list.push_back({constant.name, constant.name, {}, constant.value, constant.type});
+    return list;
+}
+
+std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
+    if (node.scope == Scope::Locals || node.scope == Scope::Parameters)
+        return routineData(node, node.scope == Scope::Parameters);
+    std::vector<Child> list;
+    std::set<std::string> hidingAll, hidingOthers; // names of the routine; LOCAL ones of the module
+    for (const bool parameters : {true, false})
+        for (const Child& child : routineData(node, parameters))
+            hidingAll.insert(rt::upperCase(child.name));
     const rt::ProgramTables& tables = context_.controller().tables();
     const auto task = static_cast<int32_t>(node.task->index());
     const std::string module =
         node.frame != nullptr ? node.frame->routine->module : node.task->place().module;
+    for (const rt::GlobalDesc* desc : tables.globals())
+        if ((desc->flags & rt::kDataLocal) != 0 && rt::sameName(desc->module, module) &&
+            tables.isDeclaredIn(*desc, task))
+            hidingOthers.insert(rt::upperCase(desc->name));
     for (const rt::GlobalDesc* desc : tables.globals()) {
         if ((desc->flags & rt::kDataPredefined) != 0 || !tables.isDeclaredIn(*desc, task)) continue;
         const bool persistent = desc->kind == rt::kGlobalPersistent;
@@ -99,8 +112,9 @@ std::vector<Variables::Child> Variables::scopeOf(const Node& node) const {
                             : node.scope == Scope::Module    ? !persistent && own
                                                              : !persistent && !own && !local;
         if (!wanted) continue;
-        const std::string expression =
-            local && !own ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
+        const std::string name = rt::upperCase(desc->name);
+        const bool hidden = hidingAll.contains(name) || (!own && (local || hidingOthers.contains(name)));
+        const std::string expression = hidden ? fmt::format("{}:{}", desc->module, desc->name) : desc->name;
         list.push_back({desc->name, expression, rt::dataOf(*desc)});
     }
     return list;

@@ -51,6 +51,8 @@ class Variables {
     const Node& find(int64_t reference) const;
     std::vector<Child> childrenOf(const Node& node, uint64_t start, uint64_t count) const;
     std::vector<Child> scopeOf(const Node& node) const;
+    /// Of the routine of a frame: its parameters, or its own data and constants.
+    std::vector<Child> routineData(const Node& node, bool parameters) const;
     Json entry(const Child& child, const std::shared_ptr<void>& storage);
 
     Context& context_;
