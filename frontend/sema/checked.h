@@ -157,7 +157,7 @@ struct Task {
 
 /// Everything owned here; see the accessors. Lower it only when the sink has no errors.
 struct CheckedProgram {
-    std::vector<std::unique_ptr<syntax::SyntaxTree>> trees; ///< user files, then those of the library
+    std::vector<std::unique_ptr<syntax::SyntaxTree>> trees; ///< files of the library, then those of the tasks
     std::vector<std::unique_ptr<Task>> tasks;
     std::vector<Module*> predefinedModules; ///< stdlib declarations
     std::vector<std::unique_ptr<Module>> moduleStore;

@@ -1,22 +1,11 @@
 // Calls: of routines of the program, of built-ins with arguments that fit their declarations, by name.
 
 #include "tests/fuzz/program_maker.h"
+#include "tests/fuzz/program_runner.h"
 
 #include <algorithm>
 
 namespace rapid::fuzz {
-
-namespace {
-
-/// The results of these differ from run to run.
-bool tellsWallTime(std::string_view name) {
-    constexpr std::string_view kNames[] = {"CTime",        "CDate",          "GetTime",     "FileTime",
-                                           "FileTimeDnum", "ModTime",        "ModTimeDnum", "FSSize",
-                                           "GetSysInfo",   "GetServiceInfo", "ProgMemFree", "TextGet"};
-    return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
-}
-
-} // namespace
 
 /// Data to be passed by reference.
 std::string ProgramMaker::reference(const TypeOf& type, int rank, Access access, int depth) {

@@ -26,6 +26,9 @@ struct RunResult {
 /// Texts of the modules of each task; the first one is T_ROB1.
 using TaskTexts = std::vector<std::vector<std::string>>;
 
+/// The results of this built-in differ from run to run.
+bool tellsWallTime(std::string_view name);
+
 class ProgramRunner {
   public:
     ProgramRunner();
@@ -37,6 +40,11 @@ class ProgramRunner {
     const std::string& errors() const { return errors_; }
     /// The modules of the last check, with their names.
     const std::string& sources() const { return sources_; }
+    /// The program of the last check; lower it only when check() returned true.
+    const sema::CheckedProgram& program() const { return *program_; }
+    const sema::CheckOptions& options() const { return options_; }
+    /// One file for each module; its name begins with that of the task.
+    static std::vector<sema::TaskInput> inputsOf(const TaskTexts& tasks, size_t robots);
     /// Breaks off the process with a message when the program does not come through.
     RunResult run(Way way);
 
@@ -58,7 +66,8 @@ struct Tally {
 bool tryProgram(ProgramRunner& runner, const TaskTexts& tasks, bool hasTime, bool optimise);
 
 /// Checks, and compares output, events, signals with their times, and errors of all profiles. False: check refuses the program.
-bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks, size_t robots);
+/// `optimise`: the release profile with the optimiser as well, as a whole and in parts.
+bool tryTasks(ProgramRunner& runner, const TaskTexts& tasks, size_t robots, bool optimise = false);
 
 /// Of tryProgram() in this process; shown when it ends. RAPIDC_FUZZ_SHOW=1 shows programs and refusals as well.
 Tally& tally();

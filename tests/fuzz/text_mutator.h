@@ -25,15 +25,20 @@ inline std::string readAll(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The modules in folders of the sources ("/tests/golden"), in the order of their paths.
-inline std::vector<std::string> modulesOf(const std::vector<std::string>& folders) {
+/// Paths of the modules in folders of the sources ("/tests/golden"), in order.
+inline std::vector<std::filesystem::path> modulePaths(const std::vector<std::string>& folders) {
     std::vector<std::filesystem::path> paths;
     for (const std::string& folder : folders)
         for (const auto& entry : std::filesystem::recursive_directory_iterator(RAPIDC_SOURCE_DIR + folder))
             if (entry.path().extension() == ".modx") paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// The texts of these modules.
+inline std::vector<std::string> modulesOf(const std::vector<std::string>& folders) {
     std::vector<std::string> texts;
-    for (const auto& path : paths)
+    for (const auto& path : modulePaths(folders))
         texts.push_back(readAll(path));
     return texts;
 }

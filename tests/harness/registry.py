@@ -112,7 +112,8 @@ def replays(source, build):
     replay = os.path.join(source, "tests", "harness", "replay.py")
     found = {"fuzz/" + entry.name: ProgramRun(python(replay, os.path.join(build, "rapidc_replay_" + entry.name), entry.path), 240)
              for entry in sorted(os.scandir(corpora), key=lambda entry: entry.name) if entry.is_dir()}
-    found["fuzz/tasks_random"] = ProgramRun([os.path.join(build, "rapidc_replay_tasks"), "-random=8"], 240)
+    for name in ("tasks", "mutant"):
+        found[f"fuzz/{name}_random"] = ProgramRun([os.path.join(build, "rapidc_replay_" + name), "-random=8"], 240)
     return found
 
 
