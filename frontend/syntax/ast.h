@@ -274,8 +274,8 @@ struct ErrorClause : Node {
 struct RoutineDecl : Decl {
     RoutineKind routineKind = RoutineKind::Proc;
     bool local = false;
-    bool hasBody = true;              ///< false only in the declarations of built-ins
-    bool closed = true;               ///< an end word is there; without one, more instructions may be meant to follow
+    bool hasBody = true; ///< false only in the declarations of built-ins
+    bool closed = true;  ///< an end word is there; without one, more instructions may be meant to follow
     TokenIndex returnType = kNoToken; ///< functions
     TokenIndex name = kNoToken;
     std::span<ParamDecl*> params;
