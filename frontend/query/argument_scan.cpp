@@ -292,7 +292,7 @@ void ArgumentScan::expectedOf(const Frame& frame, Cursor& cursor) const {
     if (frame.kind != Kind::Call) return;
     const auto& call = frame.call;
     if (call.routine && call.parameter < 0 && !frame.optional)
-        cursor.expect = Expect::Nothing; // there is no more
+        cursor.expect = Expect::Nothing; // every required argument is given
     if (!call.routine || call.parameter < 0) return;
     const DataSymbol& param = *call.routine->params[static_cast<size_t>(call.parameter)];
     const bool atValue = frame.valueStart == at_;

@@ -8,16 +8,17 @@
 
 namespace rapid::lower {
 
+/// A value for each parameter, as Options::evaluate takes them.
+using ConstArguments = std::vector<const sema::ConstValue*>;
+
 class EvaluatedCalls {
   public:
     explicit EvaluatedCalls(const Options& options) : evaluate_(options.evaluate) {}
 
     /// The result of the function depends on its arguments alone.
     bool covers(const sema::RoutineSymbol& callee) const;
-    /// The result for these arguments, as Options::evaluate takes them; null if the function raises an error or cannot be
-    /// called here.
-    const sema::ConstValue* evaluate(const sema::RoutineSymbol& callee,
-                                     std::span<const sema::ConstValue* const> arguments);
+    /// The result for these arguments; null if the function raises an error or cannot be called here.
+    const sema::ConstValue* evaluate(const sema::RoutineSymbol& callee, const ConstArguments& arguments);
 
     /// Of calls that have been looked at; null: not constant.
     std::unordered_map<const syntax::Node*, const sema::ConstValue*> known;

@@ -216,9 +216,8 @@ ir::ValueId RoutineLowering::lowerCall(const Node& node, ValueId resultAddr) {
             return ir::kNone;
         }
     }
-    if (node.kind == NodeKind::Call)
-        if (const sema::ConstValue* value = constantOf(static_cast<const Expr&>(node)))
-            return lowerEvaluated(*value, callee.returnType, resultAddr);
+    if (const sema::ConstValue* value = evaluatedCall(node, call))
+        return lowerEvaluated(*value, callee.returnType, resultAddr);
     findChangedArguments(call);
     if (program_.isForeign(callee)) return lowerForeignCall(call, resultAddr);
     if (program_.mayBeErased(callee, module_)) return lowerErasableCall(call, resultAddr);

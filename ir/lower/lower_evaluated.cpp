@@ -11,21 +11,31 @@ bool EvaluatedCalls::covers(const sema::RoutineSymbol& callee) const {
 }
 
 const sema::ConstValue* EvaluatedCalls::evaluate(const sema::RoutineSymbol& callee,
-                                                 std::span<const sema::ConstValue* const> arguments) {
+                                                 const ConstArguments& arguments) {
     const auto value = evaluate_(callee, arguments, texts_);
     return value ? &results_.emplace_back(*value) : nullptr;
 }
 
-const sema::ConstValue* RoutineLowering::evaluatedCall(const BoundCall& call) {
+std::optional<ConstArguments> RoutineLowering::constantArguments(const BoundCall& call) {
     static constexpr sema::ConstValue kGiven{};
-    std::vector<const sema::ConstValue*> arguments;
+    ConstArguments arguments;
     for (const BoundArg& arg : call.args) {
-        if (arg.kind == BoundArg::Kind::Conditional) return nullptr;
+        if (arg.kind == BoundArg::Kind::Conditional) return {};
         const bool isGiven = arg.kind == BoundArg::Kind::Present;
         arguments.push_back(!isGiven ? nullptr : arg.param->isSwitch ? &kGiven : constantOf(*arg.value));
-        if (isGiven && !arguments.back()) return nullptr;
+        if (isGiven && !arguments.back()) return {};
     }
-    return program_.evaluatedCalls().evaluate(*call.routine, arguments);
+    return arguments;
+}
+
+const sema::ConstValue* RoutineLowering::evaluatedCall(const Node& node, const BoundCall& call) {
+    EvaluatedCalls& evaluated = program_.evaluatedCalls();
+    if (!call.routine || !evaluated.covers(*call.routine)) return nullptr;
+    if (const auto found = evaluated.known.find(&node); found != evaluated.known.end()) return found->second;
+    const auto arguments = constantArguments(call);
+    const sema::ConstValue* value = arguments ? evaluated.evaluate(*call.routine, *arguments) : nullptr;
+    evaluated.known[&node] = value;
+    return value;
 }
 
 const sema::ConstValue* RoutineLowering::constantOf(const Expr& outer) {
@@ -33,13 +43,7 @@ const sema::ConstValue* RoutineLowering::constantOf(const Expr& outer) {
     if (const sema::ConstValue* value = info(expr).constant) return value;
     if (expr.kind != NodeKind::Call) return nullptr;
     const auto call = facts().calls.find(&expr);
-    EvaluatedCalls& evaluated = program_.evaluatedCalls();
-    if (call == facts().calls.end() || !call->second.routine || !evaluated.covers(*call->second.routine))
-        return nullptr;
-    if (const auto found = evaluated.known.find(&expr); found != evaluated.known.end()) return found->second;
-    const sema::ConstValue* value = evaluatedCall(call->second);
-    evaluated.known[&expr] = value;
-    return value;
+    return call == facts().calls.end() ? nullptr : evaluatedCall(expr, call->second);
 }
 
 ir::ValueId RoutineLowering::lowerEvaluated(const sema::ConstValue& value, const sema::DataType& type,

@@ -223,7 +223,7 @@ class Folder {
     bool evaluate(Inst& inst) {
         TypeId type = valueType(inst);
         if (type == kVoid || type == kPtr) return false;
-        if (inst.op == Op::CallNative || opInfo(inst.op).touchesMemory) return false;
+        if (opInfo(inst.op).touchesMemory) return false;
         for (ValueId operand : inst.operands)
             if (!isConst(operand)) return false;
         Constant out{type};

@@ -8,6 +8,8 @@ namespace stdlibgen {
 
 /// How values of a type are represented, those of an alias as those of its type; Repr::Record for an unknown name.
 Repr reprOf(const Model& model, std::string_view type);
+/// num, dnum or bool.
+bool isScalar(Repr repr);
 /// Whether a native is called by value without a task (class Const) or with a task and a status (class
 /// Plain). Const: `effects: const`, result and all parameters are required num, dnum or bool, mode IN.
 bool isConstNative(const Model& model, const Routine& routine);

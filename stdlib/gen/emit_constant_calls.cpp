@@ -15,8 +15,7 @@ namespace {
 bool isSimple(const Model& model, const Param& p) {
     if (p.isSwitch) return true;
     const Repr repr = reprOf(model, p.type);
-    return p.mode == Mode::In && p.rank == 0 &&
-           (repr == Repr::Num || repr == Repr::Dnum || repr == Repr::Bool || repr == Repr::String);
+    return p.mode == Mode::In && p.rank == 0 && (isScalar(repr) || repr == Repr::String);
 }
 
 /// Results of type dnum are left to the program: their last digits may depend on the mathematical library of the machine that
@@ -26,7 +25,7 @@ bool isEvaluated(const Model& model, const Routine& routine) {
     const std::string effects = routine.doc.get("effects");
     if (effects != "const" && effects != "pure") return false;
     const Repr result = reprOf(model, routine.returnType);
-    return (result == Repr::Num || result == Repr::Bool || result == Repr::String) &&
+    return ((isScalar(result) && result != Repr::Dnum) || result == Repr::String) &&
            std::all_of(routine.params.begin(), routine.params.end(),
                        [&](const Param& p) { return isSimple(model, p); });
 }

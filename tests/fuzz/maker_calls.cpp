@@ -107,7 +107,7 @@ std::string ProgramMaker::builtInArgument(const sema::DataSymbol& param, int dep
 }
 
 std::string ProgramMaker::builtInCall(const sema::RoutineSymbol& routine, int depth, bool& possible) {
-    if (tellsWallTime(routine.name)) made_.hasTime = true;
+    if (dependsOnWallTime(routine.name)) made_.hasTime = true;
     std::string text;
     bool anyRequired = false;
     uint32_t given = UINT32_MAX;

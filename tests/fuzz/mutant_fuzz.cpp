@@ -109,7 +109,7 @@ const std::vector<std::string>& seeds() {
 bool isLeftOut(const std::string& text) {
     for (const syntax::Token& token : syntax::lex(text).tokens) {
         const std::string_view word = std::string_view(text).substr(token.offset, token.length);
-        if (fuzz::tellsWallTime(word)) return true;
+        if (fuzz::dependsOnWallTime(word)) return true;
         for (const char* begin :
              {"socket", "egm", "uialpha", "uimsg", "uinum", "uidnum", "uilist", "uimess", "tpread", "spy"})
             if (config::beginsWithName(word, begin)) return true;

@@ -84,7 +84,7 @@ std::string show(const diag::Sink& sink) {
 
 } // namespace
 
-bool tellsWallTime(std::string_view name) {
+bool dependsOnWallTime(std::string_view name) {
     constexpr std::string_view kNames[] = {"CTime",        "CDate",          "GetTime",     "FileTime",
                                            "FileTimeDnum", "ModTime",        "ModTimeDnum", "FSSize",
                                            "GetSysInfo",   "GetServiceInfo", "ProgMemFree", "TextGet"};

@@ -27,7 +27,7 @@ struct RunResult {
 using TaskTexts = std::vector<std::vector<std::string>>;
 
 /// The results of this built-in differ from run to run.
-bool tellsWallTime(std::string_view name);
+bool dependsOnWallTime(std::string_view name);
 
 class ProgramRunner {
   public:
