@@ -19,6 +19,12 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_LAUNCHER})
 endif()
 
+# What compiled programs need in any case. math.h sets no errno, so that roots and roundings are single instructions; neither changes a result.
+add_compile_options(-fno-math-errno)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  add_compile_options(-march=x86-64-v2)
+endif()
+
 option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(RAPIDC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)

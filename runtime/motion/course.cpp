@@ -23,7 +23,7 @@ void Course::dropLongWindow(double time) {
     if (isExact() || isQuick() || time <= knots_.front().t) return;
     constexpr int kPieces = 64;
     const auto before = std::make_shared<const Course>(*this);
-    std::deque<Knot> averaged;
+    std::vector<Knot> averaged;
     for (int i = 0; i <= kPieces; ++i) {
         Knot knot;
         knot.t = time - shortWindow_ * (kPieces - i) / kPieces;

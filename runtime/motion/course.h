@@ -5,8 +5,8 @@
 // An exact course has no windows: it is executed as planned, in pieces that limit jerk themselves.
 
 #include <cstddef>
-#include <deque>
 #include <memory>
+#include <vector>
 
 namespace motion {
 
@@ -88,8 +88,8 @@ class Course {
     Integrals integralsAt(double time) const;
     void push(const Knot& knot);
 
-    std::deque<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0
-    double origin_ = 0;              // subtracted from places, so that integrals stay small
+    std::vector<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0
+    double origin_ = 0;               // subtracted from places, so that integrals stay small
     double longWindow_ = 1, shortWindow_ = 1;
     std::shared_ptr<const Course> before_; // executed until `from_`; null for none
     double from_ = 0;

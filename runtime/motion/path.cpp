@@ -426,7 +426,8 @@ void MotionPath::setFrames(const FrameSetup& frames) {
 
 Pose MotionPath::flangeOf(const Pose& target, const ExternalAxes& axes, const Pose* user) const {
     if (user != nullptr || frames_.isMoved()) return frames_.toFlange(target, axes, user);
-    return beforeTarget_ * (frames_.tool.robotHeld ? target : robot::inverse(target)) * afterTarget_;
+    return chained(chained(beforeTarget_, frames_.tool.robotHeld ? target : robot::inverse(target)),
+                   afterTarget_);
 }
 
 Pose MotionPath::flangeFor(const Pose& target, double s) const {

@@ -214,6 +214,10 @@ RoutePoint Route::at(double place) const {
     return pointAt(inside, nullptr);
 }
 
+RoutePoint Route::atNear(double place, const Joints& joints) const {
+    return pointAt(std::clamp(place, 0.0, length()), &joints);
+}
+
 const Joints& Route::jointsNear(double place) const {
     return stretches_.empty() ? legs_.front().path->start().robax
                               : stretches_[stretchAt(place)].middle.joints;

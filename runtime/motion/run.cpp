@@ -508,10 +508,15 @@ double Run::restPlace(double now) const {
     return rest;
 }
 
+double Run::lastBraking() const {
+    if (!decision_) decision_ = course_.lastBraking();
+    return *decision_;
+}
+
 double Run::decisionTime() const {
+    if (decision_) return *decision_;
     const double entry = route_.zoneEntry(route_.legCount() - 1);
     const double known = std::min(course_.lastBraking(), course_.timeAt(entry));
-    if (decision_) return *decision_;
     // Any corner can be taken from where the arm could still stop before it.
     double low = std::max(start_, course_.begin());
     double high = std::max(low, known);
@@ -573,6 +578,7 @@ Course Run::courseBack(double time, double from, double to, double mmPerSecond) 
 void Run::forgetBefore(double time, double place) {
     course_.forgetBefore(time);
     const auto count = static_cast<std::ptrdiff_t>(route_.forgetBefore(place));
+    if (count == 0) return;
     if (optimal_) return optimal_->forget(static_cast<std::size_t>(count));
     limits_.erase(limits_.begin(), limits_.begin() + count);
     reachable_.erase(reachable_.begin(), reachable_.begin() + count);

@@ -59,6 +59,8 @@ class Run {
     /// When a leg that is to follow the open end has to be known for its corner to be possible,
     /// s; of the optimal plan.
     double decisionTime() const;
+    /// When the last braking of the plan begins, s; of a measured plan.
+    double lastBraking() const;
 
     const Route& route() const { return route_; }
     const Course& course() const { return course_; }
@@ -99,8 +101,9 @@ class Run {
     double share_ = 1;
     bool isOpen_ = false;
     bool isBraking_ = false;
-    mutable std::optional<double> decision_; // found since the plan changed last; of the optimal plan
-    StretchQueue<StretchLimits> limits_;     // of each stretch
+    mutable std::optional<double>
+        decision_;                       // decisionTime() or lastBraking(), found since the plan changed last
+    StretchQueue<StretchLimits> limits_; // of each stretch
     std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
     std::deque<double> planned_;   // squares of the plan there
     std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed

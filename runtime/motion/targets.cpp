@@ -16,17 +16,6 @@ std::string axisName(int joint) {
     return fmt::format("external axis {}", static_cast<char>('a' + joint - robot::kFirstExternalAxis));
 }
 
-bool isIdentity(const Pose& pose) {
-    const Vec3& p = pose.pos;
-    const Quat& q = pose.rot;
-    return p.x == 0 && p.y == 0 && p.z == 0 && q.w == 1 && q.x == 0 && q.y == 0 && q.z == 0;
-}
-
-/// `a * b`. Most frames are identities: planning asks for frames at thousands of places.
-Pose chained(const Pose& a, const Pose& b) {
-    return isIdentity(a) ? b : isIdentity(b) ? a : a * b;
-}
-
 } // namespace
 
 MotionError targetError(const robot::IkError& error, const Vec3& position) {
@@ -66,7 +55,7 @@ Pose FrameSetup::fromFlange(const Pose& flange, const ExternalAxes& axes, const 
 }
 
 Pose FrameSetup::tcpInWorld(const Pose& flange, const ExternalAxes& axes) const {
-    return tool.robotHeld ? base(axes) * flange * tool.tframe : tool.tframe;
+    return tool.robotHeld ? chained(chained(base(axes), flange), tool.tframe) : tool.tframe;
 }
 
 bool sameTool(const FrameSetup& a, const FrameSetup& b) {

@@ -495,8 +495,7 @@ std::optional<double> Trajectory::decisionTime() const {
     const Entry& e = entries_.back();
     if (!e.run->isOpen() || !e.isScheduled || e.run->isBraking()) return {};
     if (options_.planner == Planner::Optimal) return e.run->decisionTime();
-    return std::min(e.run->course().lastBraking(),
-                    courseTime(count() - 1, firstZoneEntry(*e.run, followers_.size())));
+    return std::min(e.run->lastBraking(), courseTime(count() - 1, firstZoneEntry(*e.run, followers_.size())));
 }
 
 // ---- Places ----
@@ -531,7 +530,7 @@ void Trajectory::ratesAt(const PathPlace& place, const RoutePoint& here, Joints&
     constexpr double kStep = 2e-4; // mm
     const double from = std::clamp(place.s, 0.0, way.length());
     const double to = from + (from + kStep <= way.length() ? kStep : -kStep);
-    const RoutePoint near = way.at(to);
+    const RoutePoint near = way.atNear(to, here.joints);
     for (std::size_t i = 0; i < first.size(); ++i)
         first[i] = (near.joints[i] - here.joints[i]) / (to - from);
     if (const auto rate = way.curveRateAt(from)) {

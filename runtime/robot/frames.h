@@ -76,6 +76,15 @@ inline Quat normalized(const Quat& q) {
 inline Pose operator*(const Pose& a_b, const Pose& b_c) {
     return {a_b.pos + rotate(a_b.rot, b_c.pos), a_b.rot * b_c.rot};
 }
+inline bool isIdentity(const Pose& pose) {
+    const Vec3& p = pose.pos;
+    const Quat& q = pose.rot;
+    return p.x == 0 && p.y == 0 && p.z == 0 && q.w == 1 && q.x == 0 && q.y == 0 && q.z == 0;
+}
+/// `a_b * b_c`. Most frames are identities: planning asks for frames at thousands of places.
+inline Pose chained(const Pose& a_b, const Pose& b_c) {
+    return isIdentity(a_b) ? b_c : isIdentity(b_c) ? a_b : a_b * b_c;
+}
 /// RAPID's PoseInv: from b in a to a in b.
 inline Pose inverse(const Pose& a_b) {
     const Quat rot = conjugate(a_b.rot);
