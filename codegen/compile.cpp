@@ -37,7 +37,7 @@ std::unique_ptr<llvm::TargetMachine> makeTargetMachine(const CodegenOptions& opt
     [[maybe_unused]] static const bool kReady = [] {
         llvm::InitializeNativeTarget();
         llvm::InitializeNativeTargetAsmPrinter();
-        // There are lines only: where variables are is not to be found out, which costs a tenth of code generation.
+        // Debug information has lines only. Tracking the places of variables would cost a tenth of code generation.
         const char* const arguments[] = {"rapidc", "-experimental-debug-variable-locations=false"};
         llvm::cl::ParseCommandLineOptions(2, arguments);
         return true;
@@ -79,7 +79,7 @@ const llvm::Function* functionOf(const llvm::Any& unit) {
     return nullptr;
 }
 
-/// The passes for routines that are paced by natives, once each: variables in registers, no instruction twice.
+/// The passes that routines paced by natives get, once each: variables into registers, each instruction only once.
 class FewPasses {
   public:
     bool wants(llvm::StringRef pass, const llvm::Function& function) {
@@ -114,8 +114,8 @@ bool hasConstantArgument(const llvm::Function& function) {
     return false;
 }
 
-/// Passes over the module that would find nothing, in a tenth of the time of all: CalledValuePropagation follows pointers of
-/// functions, of which programs have only those in tables; IPSCCP finds within functions what later passes find as well.
+/// Module passes that would find nothing but take a tenth of the whole time: CalledValuePropagation follows pointers to functions, which
+/// programs have in tables only; inside functions IPSCCP finds only what later passes find as well.
 bool isUseless(llvm::StringRef pass, const llvm::Any& unit) {
     if (pass == "CalledValuePropagationPass") return true;
     const auto* module = llvm::any_cast<const llvm::Module*>(&unit);
@@ -123,8 +123,8 @@ bool isUseless(llvm::StringRef pass, const llvm::Any& unit) {
     return llvm::none_of(**module, hasConstantArgument);
 }
 
-/// Calls where something has failed, or where the budget is used up, and the instructions that prepare them count little when
-/// LLVM decides what to inline: the body of a short routine consists of them, once its natives are inlined.
+/// Makes calls after a failure, or when the budget is used up, and the instructions that prepare them count little when LLVM decides
+/// which routines to inline: they are most of a short routine's body once its natives are inlined.
 void discountColdCalls(llvm::Module& module) {
     constexpr const char* kPreparation = "30"; // six instructions, in LLVM's unit
     for (llvm::Function& function : module) {
