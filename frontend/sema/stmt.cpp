@@ -300,15 +300,17 @@ bool isWordForResult(std::string_view folded) {
     return folded == "result" || folded == "ret" || folded == "retval" || folded == "returnvalue";
 }
 
-/// The instruction that does what an assignment to a signal was meant to do.
-std::string waysToSet(KnownType signal) {
+/// The instruction that does what an assignment to a signal was meant to do: a variable of the program may have been meant to
+/// be connected.
+std::string waysToSet(KnownType signal, bool isVariable) {
+    const std::string_view connecting = isVariable ? " to set it, AliasIO to connect it" : "";
     switch (signal) {
     case KnownType::DigitalInput:
     case KnownType::GroupInput:
     case KnownType::AnalogInput: return "AliasIO to connect it, inputs are read-only";
-    case KnownType::AnalogOutput: return "SetAO";
-    case KnownType::GroupOutput: return "SetGO";
-    default: return "SetDO";
+    case KnownType::AnalogOutput: return fmt::format("SetAO{}", connecting);
+    case KnownType::GroupOutput: return fmt::format("SetGO{}", connecting);
+    default: return fmt::format("SetDO{}", connecting);
     }
 }
 
@@ -341,7 +343,8 @@ bool Statements::assignable(const Place& place, const Expr& target) {
     if (type.kind == TypeKind::Switch) {
         report(say::SwitchAsValue, range(target), {text(target)}); // no value to assign either
     } else if (type.kind == TypeKind::SemiValue) {
-        report(say::AssignSignal, range(target), {text(target), waysToSet(type.base()->known)});
+        const bool isVariable = root.storage == Storage::ModuleData || root.storage == Storage::RoutineData;
+        report(say::AssignSignal, range(target), {text(target), waysToSet(type.base()->known, isVariable)});
     } else if (root.storage == Storage::SystemVariable) {
         report(say::AssignReadOnly, range(target), {root.name});
     } else if (root.storage == Storage::LoopVariable) {

@@ -186,6 +186,8 @@ std::string Controller::whereTasksAre(const char* verb) const {
         const SourcePlace place = task->place();
         text += fmt::format("{}{} {} ", text.empty() ? "" : ", ", task->name(), verb);
         text += place.module.empty() ? "at main" : fmt::format("in {}:{}", place.module, place.line);
+        if (task->isMotionTask() && motion(*task).isStopMoveActive())
+            text += " (its robot is stopped by StopMove or a process error; StartMove lets it move)";
     }
     return text.empty() ? text : text + ".";
 }

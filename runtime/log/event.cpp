@@ -41,6 +41,16 @@ bool samePlace(const SourcePlace& a, const SourcePlace& b) {
            std::tie(b.line, b.column, b.module, b.routine, b.file);
 }
 
+/// The lines after the first one begin under it: a program gives several (ErrWrite \RL2, ErrLog).
+std::string indented(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        out += c;
+        if (c == '\n') out += "    ";
+    }
+    return out;
+}
+
 } // namespace
 
 bool Event::repeats(const Event& other) const {
@@ -112,7 +122,7 @@ std::string toText(const Event& event) {
     if (event.count > 1)
         text += fmt::format(" (x {} since {} s)", groupedDigits(event.count), formatSeconds(event.since, 3));
     text += '\n';
-    if (!event.text.empty()) text += fmt::format("    {}\n", event.text);
+    if (!event.text.empty()) text += "    " + indented(event.text) + '\n';
     if (!event.task.empty()) {
         const std::string place = placeText(event.place);
         text += place.empty() ? fmt::format("    in task {}\n", event.task)

@@ -22,6 +22,7 @@ Status setNow(TaskCore* task, Handle signal, double value) {
 /// Now, or `delay` seconds later when it is given.
 Status setAfter(TaskCore* task, Handle signal, double value, const float* delay) {
     if (!delay) return setNow(task, signal, value);
+    if (*delay < 0) return ioStatus(task, IoResult::BadTime, signal);
     return ioStatus(task, ioOf(task).setDelayed(signal, value, fromSeconds(*delay)), signal);
 }
 

@@ -55,7 +55,7 @@ Status ioStatus(TaskCore* task, IoResult result, Handle handle) {
                              : " is deactivated; activate it with IOActivate (IOEnable)"));
     case IoResult::NotValid: return fail(task, err::ERR_SIG_NOT_VALID, "signal " + name + " is not valid");
     case IoResult::BadTime:
-        return fail(task, err::ERR_ARGVALERR, "delay and pulse length must lie between 0.001 and 2000 s");
+        return fail(task, err::ERR_ARGVALERR, "a pulse lasts 0.001 to 2000 s, a delay 0 to 2000 s");
     case IoResult::TooManyDelays:
         return fail(task, err::ERR_ARGVALERR, "20 delayed changes are pending already, the maximum");
     }

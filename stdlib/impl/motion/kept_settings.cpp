@@ -48,6 +48,7 @@ Json save(const MotionState& s) {
             {"gripLoad", numbersOf(s.gripLoad)},
             {"speedLimits", {s.speedLimits.tcp, s.speedLimits.joints, s.speedLimits.external}},
             {"supervision", {s.motionSupervision, s.supervisionLevel}},
+            {"pathResolution", s.pathResolution},
             {"objectHeld", s.workObject.robhold},
             {"userFixed", s.workObject.ufprog},
             {"unit", std::string(s.workObject.ufmec.view())},
@@ -77,6 +78,7 @@ MotionState load(const Json& json) {
     limits.at(2).get_to(s.speedLimits.external);
     json.at("supervision").at(0).get_to(s.motionSupervision);
     json.at("supervision").at(1).get_to(s.supervisionLevel);
+    s.pathResolution = json.value("pathResolution", s.pathResolution);
     json.at("objectHeld").get_to(s.workObject.robhold);
     json.at("userFixed").get_to(s.workObject.ufprog);
     s.workObject.ufmec.assign(json.at("unit").get<std::string>());

@@ -180,8 +180,6 @@ Status rt_EOffsOn(TaskCore* task, const data::Robtarget* ExeP, const data::Robta
     return kOk;
 }
 
-/// The path near singular points is computed exactly and refused where an axis would have to move too fast; \Wrist and
-/// \LockAxis4, which would let the orientation deviate instead, therefore change nothing.
 Status rt_SingArea(TaskCore* task, bool Wrist, bool LockAxis4, bool Off) {
     if (Wrist + LockAxis4 + Off > 1)
         return lib::fail(task, err::ERR_ARGVALERR, "SingArea takes one of \\Wrist, \\LockAxis4 and \\Off");
@@ -223,8 +221,9 @@ Status rt_HollowWristReset(TaskCore*) {
     return kOk;
 }
 
-/// The virtual arm has no path resolution.
-Status rt_PathResol(TaskCore*, float) {
+/// The simulated path is exact; the resolution shows in C_MOTSET only.
+Status rt_PathResol(TaskCore* task, float PathSampleTime) {
+    lib::motionState(task).pathResolution = std::clamp(static_cast<double>(PathSampleTime), 25.0, 400.0);
     return kOk;
 }
 Status rt_MotionSup(TaskCore* task, bool, bool Off, const float* TuneValue, bool NoBackoff) {

@@ -44,6 +44,7 @@ struct MotionState {
     motion::SpeedLimits speedLimits; ///< SpeedLimAxis, SpeedLimCheckPoint
     bool motionSupervision = true;   ///< MotionSup, kept for C_MOTSET
     double supervisionLevel = 100;   ///< percent
+    double pathResolution = 100;     ///< PathResol, percent; kept for C_MOTSET
     bool backsOff = true;            ///< after a collision; MotionSup \NoBackoff
     bool eventBuffer = true;         ///< ActEventBuffer, DeactEventBuffer; kept for C_MOTSET
     float processMode = 1;           ///< MotionProcessModeSet

@@ -40,7 +40,7 @@ data::Motsetdata motionSettings(const lib::MotionState& state, double maxRobotSp
     out.sing = {state.singWrist, state.singLockAxis4, false, !deviates};
     out.conf.jsup = state.confJ;
     out.conf.lsup = state.confL;
-    out.pathresol = 100;
+    out.pathresol = static_cast<float>(state.pathResolution);
     out.motionsup = state.motionSupervision;
     out.tunevalue = static_cast<float>(state.supervisionLevel);
     out.acclim = s.pathAcceleration > 0;

@@ -68,8 +68,7 @@ Status packInteger(TaskCore* task, data::Rawbytes& container, uint32_t index, do
     if (form.width == 0) return badInteger(task);
     if (!(value >= form.least() && value < form.end()) || std::trunc(value) != value)
         return lib::failWith(task, err::ERR_ARGVALERR,
-                             "{} is not a whole number that fits into the {} bytes of \\IntX", value,
-                             form.width);
+                             "{} is not a whole number that fits into \\IntX (bytes: {})", value, form.width);
     const uint64_t bits =
         value < 0 ? static_cast<uint64_t>(static_cast<int64_t>(value)) : static_cast<uint64_t>(value);
     return store(task, container, index, bits, form.width, network);

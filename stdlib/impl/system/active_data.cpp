@@ -10,6 +10,8 @@
 #include "natives/support.h"
 #include "stdlib_constants.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 using namespace rt;
@@ -65,13 +67,17 @@ bool sameValue(const void* a, const void* b, const TypeDesc& type) {
     return valueToSource(a, type, first) && valueToSource(b, type, second) && first == second;
 }
 
+bool isPersistent(const GlobalDesc* data, const TypeDesc& type) {
+    return data && data->kind == kGlobalPersistent && data->type->kind == DescKind::Record &&
+           sameName(data->type->baseName, type.baseName);
+}
+
 /// The persistent of this type that has the value in force; movements note the value, not the name. `asked`: not this one,
 /// into which the value may have been copied before.
 std::string nameOf(const Task& owner, const TypeDesc& type, const Active& active, const void* asked) {
     const Controller& controller = owner.controller();
     const auto hasValue = [&](const GlobalDesc& data) {
-        return data.kind == kGlobalPersistent && sameName(data.type->baseName, type.baseName) &&
-               sameValue(data.address, active.value, type);
+        return isPersistent(&data, type) && sameValue(data.address, active.value, type);
     };
     const GlobalDesc* named = controller.findGlobal(*active.name, {}, owner);
     if (named && hasValue(*named)) return *active.name;
@@ -105,12 +111,19 @@ Status rt_SetSysData(TaskCore* task, void* SourceObject, const TypeDesc* SourceO
     if (const Status status = lib::requireMotionTask(task)) return status;
     const Active active = activeOf(taskOf(task), *SourceObjectType);
     if (!active.value) return wrongType(task, *SourceObjectType);
+    const Task& owner = taskOf(task);
+    const GlobalDesc* source = ObjectName ? owner.controller().findGlobal(ObjectName->view(), {}, owner)
+                                          : lib::dataAt(owner.controller(), SourceObject);
+    if (ObjectName && !isPersistent(source, *SourceObjectType))
+        return lib::fail(task, err::ERR_ARGVALERR,
+                         fmt::format("SetSysData: no persistent of type {} is named \"{}\"",
+                                     SourceObjectType->baseName, ObjectName->view()));
+    const void* value = ObjectName ? source->address : SourceObject;
     if (active.value == &stateOf(taskOf(task)).gripLoad &&
-        static_cast<const data::Loaddata*>(SourceObject)->mass < 0)
+        static_cast<const data::Loaddata*>(value)->mass < 0)
         return lib::fail(task, err::ERR_ARGVALERR, "the mass of a payload must not be negative");
-    std::memcpy(active.value, SourceObject, active.size);
-    const GlobalDesc* source = lib::dataAt(taskOf(task).controller(), SourceObject);
-    *active.name = ObjectName ? std::string(ObjectName->view()) : source ? source->name : "";
+    std::memcpy(active.value, value, active.size);
+    *active.name = source ? source->name : "";
     return kOk;
 }
 }
