@@ -148,8 +148,9 @@ struct TaskContext {
     std::unordered_set<NameId> maybeDeclared;           ///< names in declarations that could not be read
     std::optional<NameLists> nameLists;                 ///< see Suggestions::nameLists
     std::unordered_set<NameId> reportedNames;           ///< unknown signals and options, reported once
-    std::vector<UnknownName> unknownNames;
-    size_t comparisonsLeft = kMaxComparisons; ///< of names with misspelt ones
+    std::vector<UnknownName> unknownNames;              ///< of the files that are being checked
+    std::vector<UnknownName> earlierUnknownNames;       ///< of those that have been: Repeats::gatherUnknown
+    size_t comparisonsLeft = kMaxComparisons;           ///< of names with misspelt ones
 };
 
 } // namespace rapid::sema

@@ -183,8 +183,15 @@ void Analyzer::recheckFiles(std::span<const size_t> files) {
             });
         }
     }
-    for (const size_t index : files)
-        renewFacts(state_.task.files[index], state_.program.facts[state_.task.files[index].slot]->symbols);
+    for (const size_t index : files) {
+        const TaskFile& file = state_.task.files[index];
+        const FileFacts& old = *state_.program.facts[file.slot];
+        const bool sameText =
+            !file.modules.empty() && file.modules.front()->tree == state_.program.trees[file.slot].get();
+        const auto uses = sameText ? old.signalUses : nullptr;
+        renewFacts(file, old.symbols);
+        state_.program.facts[file.slot]->signalUses = uses;
+    }
     clearLooseEnds();
     for (size_t i = 0; i < modules.size(); ++i) {
         collector_.collectAgain(*modules[i], earlier[i]);
