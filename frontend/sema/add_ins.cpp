@@ -1,6 +1,10 @@
 #include "frontend/sema/add_ins.h"
 
 #include <algorithm>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace rapid::sema {
 
@@ -111,26 +115,53 @@ constexpr AddInNames kAddIns[] = {
      "triggflag tasksatstart searchdata stopmovestartmove_mem"},
 };
 
-/// Whether a list has the name, or unless `whole` a beginning of it.
-bool holds(std::string_view list, std::string_view folded, bool whole) {
-    while (!list.empty()) {
-        const size_t end = std::min(list.find(' '), list.size());
-        std::string_view word = list.substr(0, end);
-        list.remove_prefix(std::min(end + 1, list.size()));
-        const bool prefix = word.ends_with('*');
-        if (prefix) word.remove_suffix(1);
-        if (folded == word || (prefix && !whole && folded.starts_with(word))) return true;
+/// The words of all lists of one kind, with the position of their add-in.
+class WordIndex {
+  public:
+    static constexpr size_t kNone = std::size(kAddIns);
+
+    void add(std::string_view list, size_t addIn) {
+        while (!list.empty()) {
+            const size_t end = std::min(list.find(' '), list.size());
+            std::string_view word = list.substr(0, end);
+            list.remove_prefix(std::min(end + 1, list.size()));
+            if (word.ends_with('*')) {
+                word.remove_suffix(1);
+                beginnings_.emplace_back(word, addIn);
+            }
+            words_.emplace(word, addIn);
+        }
     }
-    return false;
+
+    /// The first add-in whose list has the name, or unless `whole` a beginning of it.
+    size_t find(std::string_view folded, bool whole) const {
+        const auto found = words_.find(folded);
+        size_t first = found == words_.end() ? kNone : found->second;
+        if (whole) return first;
+        for (const auto& [word, addIn] : beginnings_)
+            if (addIn < first && folded.starts_with(word)) first = addIn;
+        return first;
+    }
+
+  private:
+    std::unordered_map<std::string_view, size_t> words_;
+    std::vector<std::pair<std::string_view, size_t>> beginnings_;
+};
+
+WordIndex indexOf(std::string_view AddInNames::* list) {
+    WordIndex index;
+    for (size_t i = 0; i < std::size(kAddIns); ++i)
+        index.add(kAddIns[i].*list, i);
+    return index;
 }
 
 } // namespace
 
 std::string_view addInOf(std::string_view folded, bool type, bool whole) {
-    for (const AddInNames& entry : kAddIns)
-        if (holds(entry.names, folded, whole) || (type && holds(entry.types, folded, whole)))
-            return entry.where;
-    return {};
+    static const WordIndex names = indexOf(&AddInNames::names), types = indexOf(&AddInNames::types);
+    size_t first = names.find(folded, whole);
+    if (type) first = std::min(first, types.find(folded, whole));
+    return first == WordIndex::kNone ? std::string_view() : kAddIns[first].where;
 }
 
 } // namespace rapid::sema

@@ -169,9 +169,13 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
     for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             types_.resolveSignature(*routine);
+    TaskContext& task = state_.task;
+    task.isLoose =
+        task.comparisonsLeft + task.elsewhere.comparisons != kMaxComparisons || !task.unknownNames.empty();
     // File by file: what concerns one of them stays in the cache.
     for (size_t first = 0, end = 0; first < modules.size(); first = end) {
         const size_t said = state_.sink.all().size();
+        const size_t left = task.comparisonsLeft, known = task.earlierUnknownNames.size();
         for (; end < modules.size() && modules[end]->facts == modules[first]->facts; ++end) {
             state_.enterModule(modules[end]);
             for (DataSymbol* data : modules[end]->data)
@@ -180,6 +184,8 @@ void Analyzer::checkModules(std::span<Module* const> modules) {
                 routines_.checkRoutine(*routine);
         }
         finishFile(modules.subspan(first, end - first), said);
+        modules[first]->facts->spent = {left - task.comparisonsLeft, task.earlierUnknownNames.size() - known};
+        task.isLoose |= !task.unknownNames.empty();
     }
     repeats_.mergeCauses();
 }

@@ -45,10 +45,18 @@ class Analyzer {
     void finishTask();
     TaskContext leaveTask();
     void enterTask(TaskContext task);
-    /// Takes another tree for a file of the task. Whether its other files see no difference.
-    bool replaceTree(size_t file, std::unique_ptr<syntax::SyntaxTree> tree, bool broken);
-    /// Checks some files again while the facts about the others stay.
-    void recheckFiles(std::span<const size_t> files);
+    /// How far the modules of a file look as before.
+    enum class Likeness : uint8_t { None, FromOutside, WithLocals };
+    /// Takes another tree for a file of the task.
+    Likeness replaceTree(size_t file, std::unique_ptr<syntax::SyntaxTree> tree, bool broken);
+    /// Checks some files again while the facts about the others stay. `elsewhere`: what others are taken to have spent.
+    void recheckFiles(std::span<const size_t> files, Spent elsewhere = {});
+    /// Whether a changed file can be checked alone although others are `open`. Not when these share reports or signals.
+    bool allowsAlone() const;
+    /// Before replaceTree().
+    FileOffer offerOf(size_t file) const;
+    /// Checks a changed file alone. False: what others may have taken from it has changed, so they have to be checked, too.
+    bool recheckAlone(size_t file, const FileOffer& before);
     /// Checks the whole task again, without parsing.
     void recheckTask();
     const TaskContext& task() const { return state_.task; }
@@ -75,6 +83,7 @@ class Analyzer {
     void dropFacts(std::span<const size_t> files);
     void renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols);
     void clearLooseEnds();
+    Spent spentBy(size_t files) const;
 
     State state_;
     Parts parts_{scopes_,  collector_,  suggestions_, signals_,  unknown_,      types_, data_,

@@ -97,6 +97,13 @@ struct FileSymbols {
 
 struct FileSignalUses;
 
+/// The share of one check in the means of a task that all its files use.
+struct Spent {
+    size_t comparisons = 0; ///< of names with misspelt ones
+    size_t unknown = 0;     ///< names that nothing declares, kept
+    bool operator==(const Spent&) const = default;
+};
+
 /// Everything that one check of a file makes, except what belongs to the whole task.
 struct FileFacts {
     FileFacts(const syntax::SyntaxTree& tree, const Type* unknown, std::shared_ptr<FileSymbols> own,
@@ -108,6 +115,7 @@ struct FileFacts {
     uint32_t stamp = 0; ///< no two checks of files have the same
     /// The outcome hangs on what others do not declare, or on how they use it: unknown names, signals known by use.
     bool open = false;
+    Spent spent;
     std::vector<Symbol*> used; ///< symbols that this file refers to; some more than once
     std::vector<DataSymbol*> assigned;
     std::vector<std::pair<DataSymbol*, syntax::TokenIndex>>

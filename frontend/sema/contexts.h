@@ -44,6 +44,7 @@ struct JumpPoint {
 };
 
 /// Names that many comparisons with others cost time: so many are compared in a task, and in a routine.
+inline constexpr size_t kMaxUnknown = 2000; ///< so many messages about unknown names are not read
 inline constexpr size_t kMaxComparisons = 4'000'000, kMaxPartComparisons = 200'000;
 
 /// RoutineContext::block outside of all blocks.
@@ -98,6 +99,7 @@ struct ComparedName {
     bool fraction = false; ///< one of them is not an integer
     bool unknown = false;  ///< of one the value is not known
 
+    bool operator==(const ComparedName&) const = default;
     void add(const ComparedName& other) {
         least = std::min(least, other.least);
         most = std::max(most, other.most);
@@ -114,6 +116,7 @@ struct FileSignalUses {
     std::vector<std::pair<NameId, NameId>>
         comparedWith;                  ///< a name, and one that counts if it is known as a signal
     std::unordered_set<NameId> others; ///< assigned, calculated with, or declared in some routine
+    bool operator==(const FileSignalUses&) const = default;
 };
 
 /// The same for the task; put together when the first of the names is met.
@@ -128,6 +131,13 @@ struct SignalUses {
 struct NameLists {
     std::vector<NameId> global, configured; ///< ascending
     std::unordered_set<NameId> ofModules;   ///< LOCAL and global ones
+};
+
+/// A file as others see it beyond its declarations. As long as it stays the same, files that are `open` keep their outcome.
+struct FileOffer {
+    std::vector<const Symbol*> used; ///< sorted; without those of routines
+    std::shared_ptr<const FileSignalUses> uses;
+    Spent spent;
 };
 
 /// Facts about a task. A Session keeps them between checks.
@@ -148,8 +158,11 @@ struct TaskContext {
     std::unordered_set<NameId> maybeDeclared;           ///< names in declarations that could not be read
     std::optional<NameLists> nameLists;                 ///< see Suggestions::nameLists
     std::unordered_set<NameId> reportedNames;           ///< unknown signals and options, reported once
-    std::vector<UnknownName> unknownNames;
-    size_t comparisonsLeft = kMaxComparisons; ///< of names with misspelt ones
+    std::vector<UnknownName> unknownNames;              ///< of the files that are being checked
+    std::vector<UnknownName> earlierUnknownNames;       ///< of those that have been: Repeats::gatherUnknown
+    size_t comparisonsLeft = kMaxComparisons;           ///< of names with misspelt ones
+    Spent elsewhere;                                    ///< by files before the one that is checked alone
+    bool isLoose = false; ///< something was spent outside the check of the files
 };
 
 } // namespace rapid::sema

@@ -13,8 +13,8 @@ using namespace syntax;
 namespace {
 
 /// The part of a declaration that can concern other files. Constants and types count even where they are LOCAL: those
-/// that others see may be made of them.
-std::string_view visiblePart(const SyntaxTree& tree, const Decl& decl) {
+/// that others see may be made of them. `locals`: all that is LOCAL counts.
+std::string_view visiblePart(const SyntaxTree& tree, const Decl& decl, bool locals) {
     TokenIndex last = decl.last;
     switch (decl.kind) {
     case NodeKind::Record:
@@ -22,13 +22,13 @@ std::string_view visiblePart(const SyntaxTree& tree, const Decl& decl) {
     case NodeKind::Data: {
         const auto& data = as<DataDecl>(decl);
         if (data.dataKind == DataKind::Const) break;
-        if (data.scope == ScopeWord::Local) return {};
+        if (data.scope == ScopeWord::Local && !locals) return {};
         if (data.init) last = data.init->first;
         break;
     }
     case NodeKind::Routine: {
         const auto& routine = as<RoutineDecl>(decl);
-        if (routine.local) return {};
+        if (routine.local && !locals) return {};
         for (last = routine.name; last < decl.last; ++last)
             if (routine.routineKind == RoutineKind::Trap || tree.tokens[last].kind == TokenKind::RightParen)
                 break;
@@ -71,27 +71,27 @@ void dropSameEnds(const SyntaxTree& oldTree, Decls& old, const SyntaxTree& newTr
 }
 
 /// The next declaration from `i` on that others can see; the number of declarations if there is none.
-size_t nextVisible(const SyntaxTree& tree, Decls decls, size_t i, std::string_view& part) {
+size_t nextVisible(const SyntaxTree& tree, Decls decls, size_t i, bool locals, std::string_view& part) {
     for (; i < decls.size(); ++i)
-        if (part = visiblePart(tree, *decls[i]); !part.empty()) return i;
+        if (part = visiblePart(tree, *decls[i], locals); !part.empty()) return i;
     return i;
 }
 
-/// Whether two modules look alike to other files.
+/// Whether two modules look alike to other files; `locals`: also in what is LOCAL.
 bool sameFromOutside(const SyntaxTree& oldTree, const ModuleDecl& oldModule, const SyntaxTree& newTree,
-                     const ModuleDecl& newModule) {
+                     const ModuleDecl& newModule, bool locals) {
     if (oldTree.text(oldModule.name) != newTree.text(newModule.name) ||
         oldModule.attributes != newModule.attributes)
         return false;
     Decls old = oldModule.decls, fresh = newModule.decls;
     dropSameEnds(oldTree, old, newTree, fresh);
     std::string_view oldPart, newPart;
-    size_t i = nextVisible(oldTree, old, 0, oldPart);
-    size_t k = nextVisible(newTree, fresh, 0, newPart);
+    size_t i = nextVisible(oldTree, old, 0, locals, oldPart);
+    size_t k = nextVisible(newTree, fresh, 0, locals, newPart);
     while (i < old.size() && k < fresh.size()) {
         if (oldPart != newPart) return false;
-        i = nextVisible(oldTree, old, i + 1, oldPart);
-        k = nextVisible(newTree, fresh, k + 1, newPart);
+        i = nextVisible(oldTree, old, i + 1, locals, oldPart);
+        k = nextVisible(newTree, fresh, k + 1, locals, newPart);
     }
     return i == old.size() && k == fresh.size();
 }
@@ -121,19 +121,26 @@ void Analyzer::clearLooseEnds() {
     state_.task.brokenTrees.clear();
     for (const TaskFile& file : state_.task.files)
         if (file.broken) state_.task.brokenTrees.push_back(state_.program.trees[file.slot].get());
+    state_.task.elsewhere = {};
     state_.task.comparisonsLeft = kMaxComparisons;
 }
 
-bool Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {
+Analyzer::Likeness Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {
     TaskFile& file = state_.task.files[index];
     std::unique_ptr<SyntaxTree>& place = state_.program.trees[file.slot];
-    bool same = tree->modules.size() == place->modules.size();
-    for (size_t i = 0; same && i < tree->modules.size(); ++i)
-        same = sameFromOutside(*place, *place->modules[i], *tree, *tree->modules[i]);
+    const auto isSame = [&](bool locals) {
+        bool same = tree->modules.size() == place->modules.size();
+        for (size_t i = 0; same && i < tree->modules.size(); ++i)
+            same = sameFromOutside(*place, *place->modules[i], *tree, *tree->modules[i], locals);
+        return same;
+    };
+    const Likeness likeness = !isSame(false) ? Likeness::None
+                              : isSame(true) ? Likeness::WithLocals
+                                             : Likeness::FromOutside;
     dropFacts(std::span<const size_t>(&index, 1)); // they point into the old tree
     place = std::move(tree);
     file.broken = broken;
-    return same;
+    return likeness;
 }
 
 // Takes back what files say about the symbols of others.
@@ -169,7 +176,7 @@ void Analyzer::renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> sym
     }
 }
 
-void Analyzer::recheckFiles(std::span<const size_t> files) {
+void Analyzer::recheckFiles(std::span<const size_t> files, Spent elsewhere) {
     dropFacts(files);
     std::vector<Module*> modules;
     std::vector<NameMap<Symbol>> earlier;
@@ -183,14 +190,68 @@ void Analyzer::recheckFiles(std::span<const size_t> files) {
             });
         }
     }
-    for (const size_t index : files)
-        renewFacts(state_.task.files[index], state_.program.facts[state_.task.files[index].slot]->symbols);
+    for (const size_t index : files) {
+        const TaskFile& file = state_.task.files[index];
+        const FileFacts& old = *state_.program.facts[file.slot];
+        const bool sameText =
+            !file.modules.empty() && file.modules.front()->tree == state_.program.trees[file.slot].get();
+        const auto uses = sameText ? old.signalUses : nullptr;
+        renewFacts(file, old.symbols);
+        state_.program.facts[file.slot]->signalUses = uses;
+    }
     clearLooseEnds();
+    state_.task.elsewhere = elsewhere;
+    state_.task.comparisonsLeft -= std::min(state_.task.comparisonsLeft, elsewhere.comparisons);
     for (size_t i = 0; i < modules.size(); ++i) {
         collector_.collectAgain(*modules[i], earlier[i]);
     }
     collector_.checkModuleNames(modules);
     checkModules(modules);
+}
+
+bool Analyzer::allowsAlone() const {
+    const TaskContext& task = state_.task;
+    const auto isBroken = [](const TaskFile& file) { return file.broken; };
+    return !task.isLoose && task.assumed.empty() && task.reportedNames.empty() &&
+           task.maybeDeclared.empty() && std::none_of(task.files.begin(), task.files.end(), isBroken);
+}
+
+FileOffer Analyzer::offerOf(size_t file) const {
+    const FileFacts& facts = *state_.program.facts[state_.task.files[file].slot];
+    FileOffer offer{{}, facts.signalUses, facts.spent};
+    for (Symbol* symbol : facts.used) {
+        const DataSymbol* data = asData(symbol);
+        if (symbol->kind != SymbolKind::Label && !(data && data->routine)) offer.used.push_back(symbol);
+    }
+    std::sort(offer.used.begin(), offer.used.end());
+    offer.used.erase(std::unique(offer.used.begin(), offer.used.end()), offer.used.end());
+    return offer;
+}
+
+// By the first `files` of the task.
+Spent Analyzer::spentBy(size_t files) const {
+    Spent sum;
+    for (size_t i = 0; i < files; ++i) {
+        const Spent& spent = state_.program.facts[state_.task.files[i].slot]->spent;
+        sum.comparisons += spent.comparisons;
+        sum.unknown += spent.unknown;
+    }
+    return sum;
+}
+
+bool Analyzer::recheckAlone(size_t file, const FileOffer& before) {
+    const auto isAmple = [&] { // no file is refused anything, however they share
+        const Spent all = spentBy(state_.task.files.size());
+        return all.comparisons < kMaxComparisons / 2 && all.unknown < kMaxUnknown / 2;
+    };
+    const bool wasAmple = isAmple();
+    recheckFiles(std::span<const size_t>(&file, 1), spentBy(file));
+    const bool dependsOnOrder = state_.task.dependsOnOrder;
+    if (before.uses) signals_.gather();
+    const FileOffer after = offerOf(file);
+    const bool sameUses = !before.uses || *before.uses == *after.uses;
+    const bool sameMeans = before.spent == after.spent || (wasAmple && isAmple());
+    return allowsAlone() && !dependsOnOrder && sameUses && sameMeans && before.used == after.used;
 }
 
 void Analyzer::recheckTask() {

@@ -228,8 +228,12 @@ void Repeats::gatherUnknown(std::span<Module* const> modules) {
                 drop(data);
         }
     std::erase_if(task_.unknownNames, [&](const UnknownName& unknown) {
-        return !unknown.explained && unknown.code == say::UnknownName.code &&
-               count[{unknown.module, unknown.name}] < 2;
+        if (!unknown.module || unknown.module->facts != modules.front()->facts)
+            return false; // a value that another file needed
+        const bool once = !unknown.explained && unknown.code == say::UnknownName.code &&
+                          count[{unknown.module, unknown.name}] < 2;
+        if (!once) task_.earlierUnknownNames.push_back(unknown);
+        return true;
     });
 }
 
@@ -258,7 +262,10 @@ void Repeats::mergeCauses() {
     std::unordered_map<diag::CauseId, std::optional<Diagnostic>> fate; // by cause: what is reported instead
     std::map<std::tuple<const Module*, NameId, Code>, Repeat> byName;
     std::unordered_map<diag::CauseId, Repeat*> unknown; // by cause
-    for (const UnknownName& name : std::exchange(task_.unknownNames, {})) {
+    std::vector<UnknownName> names = std::exchange(task_.earlierUnknownNames, {});
+    names.insert(names.end(), task_.unknownNames.begin(), task_.unknownNames.end());
+    task_.unknownNames.clear();
+    for (const UnknownName& name : names) {
         if (name.explained) fate[name.cause] = std::nullopt;
         // A name that looks misspelt is a mistake each time, unless it is the declaration that is misspelt.
         if (name.explained || (name.looksMisspelt && (!name.near || name.near->users > 0))) continue;

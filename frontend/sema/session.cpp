@@ -108,20 +108,35 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     changed.parsed = sink.take();
     changed.source = file;
     const bool dependedOnOrder = analyzer->task().dependsOnOrder;
-    const bool alone = analyzer->replaceTree(index, std::move(tree), broken) && !dependedOnOrder;
+    const bool allowedAlone = analyzer->allowsAlone();
+    const FileOffer offer = analyzer->offerOf(index);
+    const Analyzer::Likeness likeness = analyzer->replaceTree(index, std::move(tree), broken);
+    const bool alone = likeness != Analyzer::Likeness::None && !dependedOnOrder;
     std::vector<size_t> dirty;
+    bool isDone = false;
+    bool isNamed = false; // in a message about another file
     for (size_t i = 0; i < task.files.size(); ++i) {
         const bool open = program->facts[analyzer->task().files[i].slot]->open;
-        if (i == index || !alone || open || pointsInto(task.files[i].checked, before)) dirty.push_back(i);
+        const bool names = i != index && pointsInto(task.files[i].checked, before);
+        isNamed = isNamed || names;
+        if (i == index || !alone || open || names) dirty.push_back(i);
+    }
+    if (alone && allowedAlone && !isNamed && dirty.size() > 1 && likeness == Analyzer::Likeness::WithLocals &&
+        analyzer->allowsAlone()) {
+        isDone = analyzer->recheckAlone(index, offer);
+        if (isDone)
+            dirty = {index};
+        else
+            sink.take();
     }
     std::erase_if(task.whole,
                   [](const diag::Diagnostic& d) { return d.code != diag::say::SameFileTwice.code; });
     for (const size_t i : dirty)
         task.files[i].checked.clear();
-    if (alone)
-        analyzer->recheckFiles(dirty);
-    else
+    if (!alone)
         analyzer->recheckTask();
+    else if (!isDone)
+        analyzer->recheckFiles(dirty);
     if (alone && analyzer->task().dependsOnOrder) { // from now on
         sink.take();
         for (SessionFile& each : task.files)

@@ -101,13 +101,13 @@ const Type* SignalFinder::signalTypeByName(const std::string& name) {
 }
 
 const Type* SignalFinder::signalTypeByUse(NameId name) {
-    if (!task_.signalUses.known) gatherOfTask();
+    gather();
     return task_.signalUses.arguments.find(name);
 }
 
 // The type of a name that is known by comparisons with numbers only; null when its use shows that it is not a signal.
 const Type* SignalFinder::signalTypeByComparison(const std::string& written, NameId name) {
-    if (!task_.signalUses.known) gatherOfTask();
+    gather();
     const auto found = task_.signalUses.compared.find(name);
     if (found == task_.signalUses.compared.end()) return nullptr;
     for (const auto& file : task_.signalUses.files)

@@ -9,6 +9,10 @@ class SignalFinder : CheckerPart {
   public:
     SignalFinder(State& state, const Parts& parts);
 
+    /// Reads how all files use undeclared names, unless that is known.
+    void gather() {
+        if (!task_.signalUses.known) gatherOfTask();
+    }
     /// The type of signal that a name has by its beginning: "di1". Null, here and below: it is not a signal.
     const Type* signalTypeByName(const std::string& name);
     /// The type that other routines of the task use the name as.

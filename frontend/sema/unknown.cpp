@@ -210,8 +210,9 @@ Meant UnknownNames::reportUnknown(diag::Message<2> message, TokenIndex token, Na
     }
     diag::Diagnostic& d = report(message, range(token), {text(token), hint});
     if (!best.name.empty()) d.fix(range(token), best.name, false);
-    constexpr size_t kMany = 2000; // so many messages are not read
-    if (reports_.isUnsaid(d) || task_.unknownNames.size() >= kMany) return meant;
+    if (reports_.isUnsaid(d) ||
+        task_.unknownNames.size() + task_.earlierUnknownNames.size() + task_.elsewhere.unknown >= kMaxUnknown)
+        return meant;
     const bool declared = best.symbol && !best.symbol->predefined;
     task_.unknownNames.push_back({context_.module, name, message.code, d.cause, range(token),
                                   !best.name.empty(), declared ? best.symbol : nullptr, false});

@@ -31,17 +31,19 @@ double approach(double difference, double gain, double acceleration) {
     return std::copysign(std::sqrt(2 * braking * (distance - near / 2)), difference);
 }
 
-/// One period of an axis towards its goal, with `gain` times its distance a second and a speed that is asked for besides.
+/// One period of an axis towards its goal, with `gain` times its distance a second and a speed that is asked for besides;
+/// `pace` of that when all axes slow down.
 void follow(double& position, double& speed, double goal, double gain, double speedRequested,
-            const AxisLimits& limits) {
+            const AxisLimits& limits, double pace = 1) {
     const double difference = goal - position;
     if (speedRequested == 0 && std::fabs(difference) < kNear && std::fabs(speed) * kSeconds < kNear) {
         if (gain > 0) position = goal;
         speed = 0;
         return;
     }
-    const double wanted = std::clamp(approach(difference, gain, limits.acceleration) + speedRequested,
-                                     -limits.speed, limits.speed);
+    const double wanted =
+        std::clamp(pace * (approach(difference, gain, limits.acceleration) + speedRequested), -limits.speed,
+                   limits.speed);
     const double change = limits.acceleration * kSeconds;
     speed = std::clamp(wanted, speed - change, speed + change);
     position = std::clamp(position + speed * kSeconds, std::min(limits.lower, position),
@@ -193,7 +195,10 @@ void GuidedArm::follow(const SensorData& data, double share) {
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         filtered_[i] += part * (wanted_[i] - filtered_[i]);
         if (std::fabs(wanted_[i] - filtered_[i]) < kNear) filtered_[i] = wanted_[i];
-        moveAxis(i, filtered_[i], order_.gain * share, asked[i]);
+    }
+    const double pace = paceTowards(filtered_, order_.gain * share, asked);
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        moveAxis(i, filtered_[i], order_.gain * share, asked[i], pace);
         isSteady_ = isSteady_ && speed_[i] == 0 && (filtered_[i] == wanted_[i]);
     }
     moveAdditional(data, order_.gain * share);
@@ -212,12 +217,26 @@ motion::Joints GuidedArm::speedRequested(const SensorData& data) const {
     return speed;
 }
 
-void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedRequested) {
-    const robot::RobotModel& model = motion_.model();
+double GuidedArm::highestSpeed(std::size_t axis) const {
+    return std::min(settings_.maxSpeed, motion_.model().maxSpeed[axis]);
+}
+
+double GuidedArm::paceTowards(const motion::Joints& goal, double gain, const motion::Joints& asked) const {
+    double pace = 1;
+    if (settings_.mode != GuidanceMode::Pose) return pace;
+    for (std::size_t i = 0; i < goal.size(); ++i) {
+        const double wanted =
+            approach(goal[i] - now_.robax[i], gain, motion_.model().maxAcceleration[i]) + asked[i];
+        if (const double highest = highestSpeed(i); std::fabs(wanted) * pace > highest)
+            pace = highest / std::fabs(wanted);
+    }
+    return pace;
+}
+
+void GuidedArm::moveAxis(std::size_t axis, double goal, double gain, double speedRequested, double pace) {
     const Window range = rangeOf(axis);
-    const AxisLimits limits{range.low, range.high, std::min(settings_.maxSpeed, model.maxSpeed[axis]),
-                            model.maxAcceleration[axis]};
-    ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedRequested, limits);
+    const AxisLimits limits{range.low, range.high, highestSpeed(axis), motion_.model().maxAcceleration[axis]};
+    ::rt::lib::follow(now_.robax[axis], speed_[axis], goal, gain, speedRequested, limits, pace);
 }
 
 /// Additional axes, within their ranges.

@@ -70,7 +70,12 @@ class GuidedArm {
     Window rangeOf(std::size_t axis) const;
     motion::Joints speedRequested(const SensorData& data) const;
     motion::Joints speedOfPose(const SensorData& data) const;
-    void moveAxis(std::size_t axis, double goal, double gain, double speedRequested);
+    /// deg/s.
+    double highestSpeed(std::size_t axis) const;
+    /// Poses: the share of their speeds with which all axes move so that none exceeds its highest one. Near a singularity
+    /// the others wait for the axes that have to turn far, and the TCP keeps near its way.
+    double paceTowards(const motion::Joints& goal, double gain, const motion::Joints& asked) const;
+    void moveAxis(std::size_t axis, double goal, double gain, double speedRequested, double pace);
     void moveAdditional(const SensorData& data, double gain);
     void place(const motion::JointTarget& speed);
     motion::JointTarget speedNow() const { return {speed_, additionalSpeed_}; }

@@ -240,10 +240,10 @@ def test_client_dies_in_a_message(a):
 
 
 def test_terminate(a):
+    """DAP: `exited` has the exit code of the program, once, before `terminated`. One that the client ends did not fail: 0."""
     a.start("endless.modx")
     a.ask("terminate")
-    a.event("exited")
-    a.event("terminated")
+    a.run_out(0)
     a.refused("continue", threadId=1)
 
 

@@ -131,6 +131,34 @@ def test_chosen_errors(a):
     equal(a.run_out(1), ["in handler", "next"])
 
 
+def test_unknown_filters(a):
+    """DAP, SetExceptionBreakpointsResponse: an element for each of `filters`, then of `filterOptions`; `verified` says whether
+    the filter is there and its condition valid, `message` why not. The two sets are additive."""
+    a.initialize()
+    launched = a.send("launch", {"program": path("errors.modx")})
+    a.event("initialized")
+
+    def answers(**arguments):
+        return a.ask("setExceptionBreakpoints", **arguments)["breakpoints"]
+
+    made = answers(filters=["raised", "unhandled"],
+                   filterOptions=[{"filterId": "uncaught"}, {"filterId": "all", "condition": "ERR_DIVZERRO"},
+                                  {"filterId": "all", "condition": "ERR_ARGVALERR 1003"},
+                                  {"filterId": "all", "condition": "err_own"}])
+    equal([m["verified"] for m in made], [False, True, False, False, True, True])
+    for one, word in zip(made, ["raised", None, "uncaught", "ERR_DIVZERRO", None, None]):
+        holds(word is None or word in one["message"], str(one))
+        holds(word is not None or "message" not in one, str(one))
+    equal([m["verified"] for m in answers(filters=[], exceptionOptions=[{"breakMode": "always"}])], [False])
+    answers(filters=["all"], filterOptions=[{"filterId": "all", "condition": "ERR_ARGVALERR"}])
+    a.ask("configurationDone")
+    a.answer(launched)
+    a.stopped("exception", HANDLED)
+    equal(len(answers(filters=["nonsense"])), 1)
+    a.go()
+    equal(a.run_out(1), ["in handler", "next"])
+
+
 def test_no_filter(a):
     """Contract 5: without filters the run ends with exit code 1."""
     a.start("errors.modx", filters=[])

@@ -189,6 +189,39 @@ def pose(peer):
     print("turned", [round((last["euler"][name] - start[1]["euler"][name]) % 360, 1) for name in "xyz"])
 
 
+def singular(peer):
+    """Turns the tool by 60 degrees in two seconds, its point at rest, so that axis 5 passes 0 while the tool is turned aside by 1 degree:
+    axes 4 and 6 have to turn by about 180 degrees beside the singularity."""
+    start, angles, ways, last = None, [], [], None
+    for message in peer.messages():
+        place = message["feedBack"]["cartesian"]
+        pos = [place["pos"][name] for name in "xyz"]
+        orient = tuple(place["orient"][name] for name in ("u0", "u1", "u2", "u3"))
+        start = start or (message["header"]["tm"], pos, orient)
+        seconds = (message["header"]["tm"] - start[0]) / 1000
+        angles.append((seconds, joints_of(message)))
+        ways.append(math.dist(pos, start[1]))
+        tilt = turned(turned(start[2], 1, -min(30 * seconds, 60)), 2, min(seconds, 1))
+        last = abs(sum(a * b for a, b in zip(tilt, orient)))
+        peer.send(sensor(pos=start[1], orient=tilt))
+    steps = [[(b - a) / (later[0] - now[0]) for a, b in zip(now[1], later[1])]
+             for now, later in zip(angles, angles[1:]) if later[0] > now[0]]
+    print("passed", angles[0][1][4] > 20 and angles[-1][1][4] < -20)
+    print("fastest", round(max(abs(speed) for step in steps for speed in step), 1))
+    print("away by less than 20 mm", max(ways) < 20)
+    print("reached", last > math.cos(math.radians(0.1)) and ways[-1] < 0.1)
+
+
+def turned(orient, axis, angle):
+    """The orientation, turned about an axis of the base (0 to 2), in degrees."""
+    half = math.radians(angle) / 2
+    a = [math.cos(half), 0, 0, 0]
+    a[axis + 1] = math.sin(half)
+    b = orient
+    return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+
+
 def speed(peer):
     """Sends back where the robot is, with a speed of 50 mm/s along z and 5 degrees/s about it, for a second."""
     seen = []

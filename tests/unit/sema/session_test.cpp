@@ -207,9 +207,11 @@ std::string edit(Random& random, const std::string& text, const std::vector<std:
 
 // ---- The comparison --------------------------------------------------------------------------------------------
 
+using Editor = std::string (*)(Random&, const std::string&, const std::vector<std::string>&);
+
 /// Changes one file after the other and compares each time. Files: path -> text, for each task.
 void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& tasks,
-                         const CheckOptions& options, unsigned seed, int steps) {
+                         const CheckOptions& options, unsigned seed, int steps, Editor editor = edit) {
     Random random(seed);
     std::map<std::string, std::string> now;
     std::vector<std::string> originals;
@@ -242,7 +244,7 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
             for (const auto& [path, text] : first)
                 if (now[path] != text) at = now.find(path);
         const std::string before = at->second;
-        at->second = heal ? first.at(at->first) : edit(random, at->second, originals);
+        at->second = heal ? first.at(at->first) : editor(random, at->second, originals);
         sources[at->first] = std::make_shared<const SourceFile>(at->first, at->second);
         REQUIRE(session.change(sources[at->first]));
 
@@ -262,6 +264,42 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
 int steps(int otherwise) {
     const char* given = std::getenv("RAPIDC_SESSION_STEPS");
     return given ? std::atoi(given) : otherwise;
+}
+
+/// A text without syntax errors: one line that can be left out is put in, taken out, or exchanged.
+std::string editLine(Random& random, const std::string& text, const std::vector<std::string>&) {
+    static const std::vector<std::string> inside = {
+        "missing := 1;",
+        "missing := other;",
+        "speddHigh := 2;",
+        "speedHigh := 2;",
+        "hidden := 3;",
+        "hiddenToo := 3;",
+        "absent;",
+        "TPWrite lost;",
+        "WaitDI diPart, 1;",
+        "diPart := 1;",
+        "IF flagged = 1 Stop;",
+        "flagged := flagged + 0.5;",
+        "TPWrite \"a\" \\Num:=speedHigh;",
+        "RETURN;",
+        "helper;",
+    };
+    static const std::vector<std::string> outside = {"LOCAL VAR num hidden;", "LOCAL PROC helper() ENDPROC",
+                                                     "LOCAL VAR string hidden;", "VAR num lost;"};
+    std::vector<std::string> lines = splitLines(text);
+    const bool atTop = below(random, 4) == 0;
+    const std::string mark = atTop ? "! outside\n" : "! inside\n";
+    const std::vector<std::string>& choices = atTop ? outside : inside;
+    std::vector<size_t> places;
+    for (size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].ends_with(mark)) places.push_back(i);
+    const std::string line = below(random, 3) == 0 ? "" : choices[below(random, choices.size())];
+    lines[places[below(random, places.size())]] = line + " " + mark;
+    std::string out;
+    for (const std::string& each : lines)
+        out += each;
+    return out;
 }
 
 const std::map<std::string, std::string> kCell = {
@@ -388,6 +426,28 @@ ENDMODULE
 )"}};
     for (unsigned seed = 11; seed <= 12; ++seed)
         compareThroughEdits({kCell, second}, options, seed, steps(60));
+}
+
+// Files with undeclared names stay as they are when another file changes in nothing that they can notice: how often names are
+// used, what is LOCAL, and how undeclared names are used count.
+TEST_CASE("a session whose files use undeclared names", "[session]") {
+    CheckOptions options;
+    options.library = library();
+    std::map<std::string, std::string> files;
+    for (const char* const name : {"A", "B", "C", "D"}) {
+        std::string& text = files[std::string(name) + ".modx"];
+        text = std::string("MODULE ") + name + "\n! outside\n! outside\n";
+        if (*name == 'A') text += "VAR num speedHigh;\n";
+        for (const char* const routine : {"first", "second"})
+            text += std::string("PROC ") + routine + name +
+                    "()\n missing := 1; ! inside\n ! inside\n ! inside\n ! inside\nENDPROC\n";
+        text += "ENDMODULE\n";
+    }
+    for (const bool known : {false, true}) {
+        options.configurationKnown = known;
+        for (unsigned seed = 31; seed <= 34; ++seed)
+            compareThroughEdits({files}, options, seed, steps(60), editLine);
+    }
 }
 
 // The programs that show mistakes hold every construct that the checker has an opinion on.

@@ -1,6 +1,7 @@
 #include "tools/rapidc/dap/breakpoint_requests.h"
 
 #include "runtime/base/text_util.h"
+#include "stdlib/native_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -320,43 +321,71 @@ Json BreakpointRequests::breakpointLocations(const Arguments& arguments) {
 
 // ---- Errors --------------------------------------------------------------------------------------------------------
 
-BreakpointRequests::Filter BreakpointRequests::readFilter(const std::string& condition) {
-    Filter filter;
-    filter.on = true;
+std::vector<std::string> BreakpointRequests::errorsIn(const std::string& condition) {
+    std::vector<std::string> errors;
     std::string word;
     for (const char c : condition + " ") {
         if (c != ' ' && c != ',' && c != ';' && c != '\t') {
             word += c;
         } else if (!word.empty()) {
-            filter.errors.insert(rt::upperCase(word));
+            errors.push_back(rt::upperCase(word));
             word.clear();
         }
     }
-    return filter;
+    return errors;
+}
+
+bool BreakpointRequests::isError(const std::string& word) const {
+    if (word.find_first_not_of("0123456789") == std::string::npos) return true;
+    const auto table = rt::errorTable();
+    if (std::any_of(table.begin(), table.end(),
+                    [&](const rt::ErrorEntry& entry) { return entry.name == word; }))
+        return true;
+    if (!context_.evaluator) return false;
+    for (const auto& task :
+         context_.controller().tasks()) { // the program's own, which BookErrNo gives a number
+        const Evaluation found = context_.evaluator->find({task.get(), nullptr}, word);
+        if (found.hasValue && rt::typeName(found.value) == "errnum") return true;
+    }
+    return false;
 }
 
 bool BreakpointRequests::Filter::includes(int number, const Context& context) const {
-    if (!on || errors.empty()) return on;
+    if (!on || everyError) return on;
     const std::string name = context.program ? context.program->controller().log().errorName(number) : "";
     return errors.contains(rt::upperCase(name)) || errors.contains(std::to_string(number));
 }
 
+std::string BreakpointRequests::addFilter(const std::string& name, const std::string& condition,
+                                          Filter& unhandled, Filter& all) const {
+    if (name != "unhandled" && name != "all")
+        return fmt::format("the filter '{}' is unknown: use 'unhandled' or 'all'", name);
+    const std::vector<std::string> errors = errorsIn(condition);
+    for (const std::string& error : errors)
+        if (!isError(error)) return fmt::format("'{}' is neither the name of an error nor its number", error);
+    Filter& filter = name == "all" ? all : unhandled;
+    filter.on = true;
+    filter.everyError = filter.everyError || errors.empty();
+    filter.errors.insert(errors.begin(), errors.end());
+    return {};
+}
+
+/// The reply has an element for each filter and each option, in this order; they add up.
 Json BreakpointRequests::setExceptionBreakpoints(const Arguments& arguments) {
     if (!arguments.has("filterOptions")) arguments.require("filters");
     Filter unhandled, all;
-    std::vector<std::pair<std::string, std::string>> wanted;
-    for (const std::string& name : arguments.texts("filters"))
-        wanted.emplace_back(name, "");
-    for (const Arguments& option : arguments.objects("filterOptions"))
-        wanted.emplace_back(option.text("filterId"), option.text("condition", ""));
     Json result = Json::array();
-    for (const auto& [name, condition] : wanted) {
-        const bool known = name == "unhandled" || name == "all";
-        if (known) (name == "all" ? all : unhandled) = readFilter(condition);
-        Json one{{"verified", known}};
-        if (!known) one["message"] = fmt::format("there is no filter '{}'", name);
+    const auto answer = [&](const std::string& problem) {
+        Json one{{"verified", problem.empty()}};
+        if (!problem.empty()) one["message"] = problem;
         result.push_back(std::move(one));
-    }
+    };
+    for (const std::string& name : arguments.texts("filters"))
+        answer(addFilter(name, "", unhandled, all));
+    for (const Arguments& option : arguments.objects("filterOptions"))
+        answer(addFilter(option.text("filterId"), option.text("condition", ""), unhandled, all));
+    for (std::size_t i = arguments.objects("exceptionOptions").size(); i > 0; --i)
+        answer("exception options are not supported: use filters");
     unhandled_ = std::move(unhandled);
     all_ = std::move(all);
     return {{"breakpoints", std::move(result)}};

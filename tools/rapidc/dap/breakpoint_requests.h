@@ -42,7 +42,8 @@ class BreakpointRequests {
     };
     struct Filter {
         bool on = false;
-        std::set<std::string> errors; ///< upper case names and numbers; none: all
+        bool everyError = false;      ///< whatever `errors` has
+        std::set<std::string> errors; ///< upper case names and numbers
         bool includes(int number, const Context& context) const;
     };
 
@@ -61,12 +62,18 @@ class BreakpointRequests {
     Json describe(const Wanted& wanted) const;
     const rt::Breakpoint* find(int id) const;
     void changed(const rt::Breakpoint& breakpoint);
-    static Filter readFilter(const std::string& condition);
+    /// The words of a condition, in upper case.
+    static std::vector<std::string> errorsIn(const std::string& condition);
+    /// A number, a predefined error, or an errnum of the program.
+    bool isError(const std::string& word) const;
+    /// Returns why the filter cannot be set, or "".
+    std::string addFilter(const std::string& name, const std::string& condition, Filter& unhandled,
+                          Filter& all) const;
 
     Context& context_;
     std::map<std::string, std::vector<Wanted>> lines_; ///< by path
     std::vector<Wanted> routines_, data_;
-    Filter unhandled_{true, {}}, all_;
+    Filter unhandled_{true, true, {}}, all_;
     mutable int lastNumber_ = 0;
 };
 
