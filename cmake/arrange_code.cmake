@@ -1,4 +1,4 @@
-# rapidc_arrange_code(TARGET ARCHIVE): writes the machine code of a library anew after it was linked, so that the blocks that ran
+# rapidc_arrange_code(TARGET ARCHIVE): rewrites the machine code of a linked library, so that the blocks that ran
 # together when ARCHIVE was recorded lie together (decision 139). `cmake -P` of this file is that step: -DBOLT, -DLIBRARY, -DPROFILE.
 
 if(NOT CMAKE_SCRIPT_MODE_FILE)

@@ -19,7 +19,8 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_LAUNCHER})
 endif()
 
-# What compiled programs need in any case. math.h sets no errno, so that roots and roundings are single instructions; neither changes a result.
+# Compiled programs need x86-64-v2 in any case. Without errno of math.h, roots and roundings are single instructions. Neither changes a
+# result.
 add_compile_options(-fno-math-errno)
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   add_compile_options(-march=x86-64-v2)
