@@ -97,7 +97,7 @@ struct FileSymbols {
 
 struct FileSignalUses;
 
-/// The share of one check in the means of a task that all its files use.
+/// How much of the limits that the files of a task share the check of one file has used up.
 struct Spent {
     size_t comparisons = 0; ///< of names with misspelt ones
     size_t unknown = 0;     ///< names that nothing declares, kept
