@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace rapid::sema {
 
@@ -108,22 +109,24 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     changed.parsed = sink.take();
     changed.source = file;
     const bool dependedOnOrder = analyzer->task().dependsOnOrder;
-    const bool allowedAlone = analyzer->allowsAlone();
-    const FileOffer offer = analyzer->offerOf(index);
+    const auto isOpen = [&](size_t i) { return program->facts[analyzer->task().files[i].slot]->open; };
+    bool othersOpen = false;
+    for (size_t i = 0; i < task.files.size(); ++i)
+        othersOpen = othersOpen || (i != index && isOpen(i));
+    std::optional<FileOffer> offer; // while the others might be left alone
+    if (othersOpen && analyzer->allowsAlone()) offer = analyzer->offerOf(index);
     const Analyzer::Likeness likeness = analyzer->replaceTree(index, std::move(tree), broken);
     const bool alone = likeness != Analyzer::Likeness::None && !dependedOnOrder;
     std::vector<size_t> dirty;
     bool isDone = false;
     bool isNamed = false; // in a message about another file
     for (size_t i = 0; i < task.files.size(); ++i) {
-        const bool open = program->facts[analyzer->task().files[i].slot]->open;
         const bool names = i != index && pointsInto(task.files[i].checked, before);
         isNamed = isNamed || names;
-        if (i == index || !alone || open || names) dirty.push_back(i);
+        if (i == index || !alone || isOpen(i) || names) dirty.push_back(i);
     }
-    if (alone && allowedAlone && !isNamed && dirty.size() > 1 && likeness == Analyzer::Likeness::WithLocals &&
-        analyzer->allowsAlone()) {
-        isDone = analyzer->recheckAlone(index, offer);
+    if (offer && alone && !isNamed && likeness == Analyzer::Likeness::WithLocals && analyzer->allowsAlone()) {
+        isDone = analyzer->recheckAlone(index, *offer);
         if (isDone)
             dirty = {index};
         else

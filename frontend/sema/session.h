@@ -10,10 +10,10 @@ namespace rapid::sema {
 ///
 /// A changed file is parsed and checked again. Other files are left alone as long as they cannot see the change: the
 /// declarations that others see are the same, letter by letter. Otherwise all files of the task are checked again, but
-/// not parsed. What is said about names that nothing declares hangs on other files: on their LOCAL declarations, on the symbols
-/// they use, on how they use such names, and on what they spend of the means for suggestions. When one of these changes,
-/// all files with such names are checked again. That is always so while reports or signals known by use are shared by the files of
-/// a task, or while a file has syntax errors. Files with a message that points into the changed one are checked again, too.
+/// not parsed. Messages about undeclared names also depend on the other files: on their LOCAL declarations, on the symbols
+/// they use, on how they use such names, and on how much of the limits for suggestions they use up. When one of these changes,
+/// all files with such names are checked again. This always happens while the files of a task share reports or signals known by
+/// use, or while a file has syntax errors. Files with a message that points into the changed one are checked again, too.
 class Session {
   public:
     /// `requireMain` does not count: what is being written need not run.

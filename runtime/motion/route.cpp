@@ -209,13 +209,8 @@ std::size_t Route::ownLeg(double place) const {
     return firstLeg_ + index;
 }
 
-RoutePoint Route::at(double place) const {
-    const double inside = std::clamp(place, 0.0, length());
-    return pointAt(inside, nullptr);
-}
-
-RoutePoint Route::atNear(double place, const Joints& joints) const {
-    return pointAt(std::clamp(place, 0.0, length()), &joints);
+RoutePoint Route::at(double place, const Joints* near) const {
+    return pointAt(std::clamp(place, 0.0, length()), near);
 }
 
 const Joints& Route::jointsNear(double place) const {

@@ -93,9 +93,8 @@ class Route {
     /// Number of the leg whose programmed points enclose the place.
     std::size_t legAt(double place) const;
 
-    RoutePoint at(double place) const;
-    /// The same beside a place with these joints.
-    RoutePoint atNear(double place, const Joints& joints) const;
+    /// `near`: the joints at a place close by, if they are known.
+    RoutePoint at(double place, const Joints* near = nullptr) const;
     /// The user frame of the leg at a place, where the robot that carries it really is; without this it is where the legs as
     /// programmed bring it.
     void setCarrier(std::function<Pose(double)> carrier) { carrier_ = std::move(carrier); }

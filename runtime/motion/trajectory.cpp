@@ -530,7 +530,7 @@ void Trajectory::ratesAt(const PathPlace& place, const RoutePoint& here, Joints&
     constexpr double kStep = 2e-4; // mm
     const double from = std::clamp(place.s, 0.0, way.length());
     const double to = from + (from + kStep <= way.length() ? kStep : -kStep);
-    const RoutePoint near = way.atNear(to, here.joints);
+    const RoutePoint near = way.at(to, &here.joints);
     for (std::size_t i = 0; i < first.size(); ++i)
         first[i] = (near.joints[i] - here.joints[i]) / (to - from);
     if (const auto rate = way.curveRateAt(from)) {
