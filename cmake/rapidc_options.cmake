@@ -30,6 +30,7 @@ option(RAPIDC_SANITIZE "Build with the address and undefined-behaviour sanitizer
 option(RAPIDC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(RAPIDC_COVERAGE "Instrument for coverage reports" OFF)
 option(RAPIDC_UNITY "Compile the files of a folder together: faster from nothing, slower after a change of one file" OFF)
+set(RAPIDC_ALONE "" CACHE STRING "With RAPIDC_UNITY: folders whose files are compiled alone all the same, as codegen;frontend/sema")
 
 # The compiler need not be fast to the last percent: -O2 takes less time to build. Only the programs have to be fast, and
 # LLVM optimises those.

@@ -1,5 +1,16 @@
 # Compiles the files of a folder together (RAPIDC_UNITY): a full build reads each header once per folder instead of once per file. For this,
-# names that only one file uses are unique in their folder.
+# names that only one file uses are unique in their folder. Folders in RAPIDC_ALONE are left out, with those in them.
+
+# rapidc_stays_alone(FOLDER RESULT): whether RAPIDC_ALONE names FOLDER or one that it lies in.
+function(rapidc_stays_alone folder result)
+  set(${result} FALSE PARENT_SCOPE)
+  foreach(named ${RAPIDC_ALONE})
+    cmake_path(IS_PREFIX named ${folder} NORMALIZE inside)
+    if(inside)
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
 
 # rapidc_unity(TARGET): one translation unit for every folder that TARGET has sources of. Generated sources stay alone.
 function(rapidc_unity target)
@@ -17,8 +28,11 @@ function(rapidc_unity target)
     if(NOT generated)
       cmake_path(GET path PARENT_PATH folder)
       cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_SOURCE_DIR})
-      string(MAKE_C_IDENTIFIER ${folder} group)
-      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+      rapidc_stays_alone(${folder} alone)
+      if(NOT alone)
+        string(MAKE_C_IDENTIFIER ${folder} group)
+        set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+      endif()
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
