@@ -187,6 +187,16 @@ def test_step_back(a):
     equal(places[-1][1], 100, "y of the arm")
 
 
+def test_protocol_events_only(a):
+    """docs/debugging.md: with robotEvents false, a client gets the events of the protocol and no others."""
+    a.start("moves.modx", [line_of("moves.modx", "! end")], robotEvents=False)
+    a.stopped("breakpoint")
+    a.go("stepBack")
+    a.stopped("step")
+    own = [m["event"] for m in a.seen if m["type"] == "event" and m["event"].startswith("rapidc")]
+    equal(own, [], "events of rapidc's own")
+
+
 def test_reverse_continue(a):
     """To the beginning of the routine, or a breakpoint."""
     a.start("moves.modx", [line_of("moves.modx", "! end")])

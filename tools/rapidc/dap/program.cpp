@@ -80,6 +80,7 @@ LaunchArguments LaunchArguments::from(const Arguments& arguments) {
     result.noDebug = arguments.flag("noDebug", false);
     result.realtime = arguments.flag("realtime", false);
     result.operatorDialogs = arguments.flag("operatorDialogs", false);
+    result.robotEvents = arguments.flag("robotEvents", true);
     if (const std::string robot = arguments.text("robot", ""); !robot.empty()) result.robots.push_back(robot);
     for (const std::string& file : arguments.texts("config"))
         result.config.push_back(absolutePath(folder, file));

@@ -19,6 +19,7 @@ struct LaunchArguments {
     bool noDebug = false;
     bool realtime = false;
     bool operatorDialogs = false; ///< the client answers them
+    bool robotEvents = true;      ///< an event at each stop says where the robot is
     std::vector<std::string> robots, config, tasks;
     std::string stimulus, home;
 

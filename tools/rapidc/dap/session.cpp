@@ -216,13 +216,13 @@ void Session::makeProgram(const LaunchArguments& arguments) {
     } catch (const Refusal& refusal) {
         progress(false);
         // The controller writes to standard error why it cannot start.
-        std::string told;
+        std::string printed;
         stray_.take([&](std::string_view line) {
             client_.output("stderr", line);
             if (!rt::trimmed(line).empty())
-                told += (told.empty() ? "" : "; ") + std::string(rt::trimmed(line));
+                printed += (printed.empty() ? "" : "; ") + std::string(rt::trimmed(line));
         });
-        throw Refusal(told.empty() ? refusal.what() : fmt::format("{}: {}", refusal.what(), told));
+        throw Refusal(printed.empty() ? refusal.what() : fmt::format("{}: {}", refusal.what(), printed));
     }
     progress(false);
     rt::Controller& controller = context_.controller();
@@ -406,7 +406,7 @@ void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason rea
         inspection_.setError(std::move(error));
     }
     client_.event("stopped", std::move(body));
-    showRobot(task);
+    if (context_.program->arguments().robotEvents) showRobot(task);
 }
 
 /// For clients that show the robot; others may ignore it.
