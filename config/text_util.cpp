@@ -94,4 +94,14 @@ std::string shortestNumber(double value) {
     return static_cast<double>(single) == value ? fmt::format("{}", single) : fmt::format("{}", value);
 }
 
+std::string indented(std::string_view text) {
+    constexpr std::string_view kMargin = "    ";
+    std::string out(kMargin);
+    for (const char c : text) {
+        out += c;
+        if (c == '\n') out += kMargin;
+    }
+    return out;
+}
+
 } // namespace rapid::config

@@ -19,5 +19,7 @@ std::string toUtf8(std::string_view text);
 std::vector<std::string> splitPath(std::string_view path);
 /// Shortest decimal form: of the binary32 value when nothing is lost by that, as RAPID's num shows it.
 std::string shortestNumber(double value);
+/// With four blanks before each line.
+std::string indented(std::string_view text);
 
 } // namespace rapid::config

@@ -3,6 +3,7 @@
 #include "runtime/log/event.h"
 
 #include "config/json_text.h"
+#include "config/text_util.h"
 
 #include <fmt/format.h>
 
@@ -39,16 +40,6 @@ std::string groupedDigits(uint64_t number) {
 bool samePlace(const SourcePlace& a, const SourcePlace& b) {
     return std::tie(a.line, a.column, a.module, a.routine, a.file) ==
            std::tie(b.line, b.column, b.module, b.routine, b.file);
-}
-
-/// The lines after the first one begin under it: a program gives several (ErrWrite \RL2, ErrLog).
-std::string indented(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        out += c;
-        if (c == '\n') out += "    ";
-    }
-    return out;
 }
 
 } // namespace
@@ -122,7 +113,7 @@ std::string toText(const Event& event) {
     if (event.count > 1)
         text += fmt::format(" (x {} since {} s)", groupedDigits(event.count), formatSeconds(event.since, 3));
     text += '\n';
-    if (!event.text.empty()) text += "    " + indented(event.text) + '\n';
+    if (!event.text.empty()) text += rapid::config::indented(event.text) + '\n';
     if (!event.task.empty()) {
         const std::string place = placeText(event.place);
         text += place.empty() ? fmt::format("    in task {}\n", event.task)

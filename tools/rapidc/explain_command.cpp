@@ -5,6 +5,7 @@
 #include "tools/rapidc/usage.h"
 
 #include "config/atomic_file.h"
+#include "config/text_util.h"
 #include "frontend/diag/catalogue.h"
 #include "frontend/diag/explain.h"
 #include "runtime/host/command_line.h"
@@ -21,15 +22,6 @@
 namespace rapidc {
 
 namespace {
-
-std::string indented(std::string_view example) {
-    std::string out = "    ";
-    for (const char c : example) {
-        out += c;
-        if (c == '\n') out += "    ";
-    }
-    return out;
-}
 
 int explain(const std::string& code) {
     std::string digits;
@@ -62,8 +54,8 @@ int explain(const std::string& code) {
         fmt::print("{}\n", switching);
     if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
         fmt::print("\n{}\n", explanation->meaning);
-        if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", indented(explanation->wrong));
-        fmt::print("\nright:\n{}\n", indented(explanation->right));
+        if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", rapid::config::indented(explanation->wrong));
+        fmt::print("\nright:\n{}\n", rapid::config::indented(explanation->right));
     }
     if (const char* error = code == digits ? rt::errorName(entry->number) : nullptr)
         fmt::print("\nThe event log shows {} as the ERRNO of {}: see rapidc explain {}\n", code, error,
