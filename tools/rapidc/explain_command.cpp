@@ -54,7 +54,8 @@ int explain(const std::string& code) {
         fmt::print("{}\n", switching);
     if (const rapid::diag::Explanation* explanation = rapid::diag::findExplanation(entry->number)) {
         fmt::print("\n{}\n", explanation->meaning);
-        if (!explanation->wrong.empty()) fmt::print("\nwrong:\n{}\n", rapid::config::indented(explanation->wrong));
+        if (!explanation->wrong.empty())
+            fmt::print("\nwrong:\n{}\n", rapid::config::indented(explanation->wrong));
         fmt::print("\nright:\n{}\n", rapid::config::indented(explanation->right));
     }
     if (const char* error = code == digits ? rt::errorName(entry->number) : nullptr)

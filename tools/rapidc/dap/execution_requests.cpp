@@ -40,7 +40,9 @@ void ExecutionRequests::addTo(Handlers& handlers) {
     add("stepOut", &ExecutionRequests::stepOut);
     add("stepBack", &ExecutionRequests::stepBack);
     add("reverseContinue", &ExecutionRequests::reverseContinue);
-    add("pause", &ExecutionRequests::pause);
+    handlers["pause"] = [this](const Request& request, const Arguments& arguments) {
+        return pause(request, arguments);
+    };
     add("gotoTargets", &ExecutionRequests::gotoTargets);
     add("goto", &ExecutionRequests::goTo);
     add("restartFrame", &ExecutionRequests::restartFrame);
@@ -107,12 +109,21 @@ Json ExecutionRequests::reverseContinue(const Arguments& arguments) {
     return nullptr;
 }
 
-Json ExecutionRequests::pause(const Arguments& arguments) {
+/// At a stop, the event of the stop comes again: clients exist that take the program for executing when a step was refused.
+std::optional<Json> ExecutionRequests::pause(const Request& request, const Arguments& arguments) {
     rt::Task& task = context_.task(arguments.number("threadId"));
     rt::Debugger& debugger = context_.debugger();
     if (context_.evaluator && context_.evaluator->isBusy()) {
         context_.evaluator->breakOff();
         return nullptr;
+    }
+    if (context_.stopped != nullptr) {
+        context_.client.answer(request, nullptr);
+        context_.client.event("stopped", {{"reason", "pause"},
+                                          {"description", "Paused"},
+                                          {"threadId", Context::threadOf(task)},
+                                          {"allThreadsStopped", true}});
+        return std::nullopt;
     }
     if (!context_.running) throw Refusal("the program is not executing");
     for (const auto& each : context_.controller().tasks())

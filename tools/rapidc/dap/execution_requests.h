@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace rapidc::dap {
@@ -33,7 +34,7 @@ class ExecutionRequests {
     Json stepOut(const Arguments& arguments);
     Json stepBack(const Arguments& arguments);
     Json reverseContinue(const Arguments& arguments);
-    Json pause(const Arguments& arguments);
+    std::optional<Json> pause(const Request& request, const Arguments& arguments);
     Json gotoTargets(const Arguments& arguments);
     Json goTo(const Arguments& arguments);
     Json restartFrame(const Arguments& arguments);
