@@ -92,5 +92,12 @@
 (with-eval-after-load 'eglot
   (add-to-list 'eglot-server-programs (cons 'rapid-mode (list rapid-program "lsp"))))
 
+;; The debugger: M-x dape, then rapidc (Emacs 29+).
+(defvar dape-configs)
+(with-eval-after-load 'dape
+  (add-to-list 'dape-configs
+               `(rapidc modes (rapid-mode) command ,rapid-program command-args ("dap")
+                        :type "rapidc" :request "launch" :program dape-buffer-default :cwd dape-cwd)))
+
 (provide 'rapid-mode)
 ;;; rapid-mode.el ends here
