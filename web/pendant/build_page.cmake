@@ -37,7 +37,11 @@ if(NOT installed STREQUAL lock)
   execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1
     WORKING_DIRECTORY ${WORK} TIMEOUT 300 RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_VARIABLE text)
   if(NOT status STREQUAL "0" OR NOT EXISTS ${WORK}/node_modules/esbuild/package.json) # npm that was interrupted may say 0
-    rapidc_fall_back("npm ci failed in ${WORK}: ${status}")
+    string(REGEX MATCH "reason: [^\n]+|code [A-Z0-9_]+" reason "${text}")
+    if(NOT reason)
+      set(reason "status ${status}")
+    endif()
+    rapidc_fall_back("npm ci failed in ${WORK}, ${reason}")
     file(APPEND ${WORK}/not_built "${text}")
     return()
   endif()
