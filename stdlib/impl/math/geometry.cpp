@@ -25,11 +25,14 @@ RAPIDC_INLINED Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y,
 
 Status rt_OrientZYX(TaskCore* task, data::Orient* result, float ZAngle, float YAngle, float XAngle) {
     // By half angles: exact for multiples of 90 degrees.
-    const SineCosine z = sinCosDeg(ZAngle / 2.0), y = sinCosDeg(YAngle / 2.0), x = sinCosDeg(XAngle / 2.0);
-    const robot::Quat aboutZ{z.cosine, 0, 0, z.sine};
-    const robot::Quat aboutY{y.cosine, 0, y.sine, 0};
-    const robot::Quat aboutX{x.cosine, x.sine, 0, 0};
-    return give(task, result, toOrient(aboutZ * aboutY * aboutX));
+    const auto half = [](float angle) {
+        const SineCosine both = sinCosDeg(angle / 2.0);
+        return robot::HalfAngle{both.cosine, both.sine};
+    };
+    const robot::HalfAngle z = half(ZAngle);
+    if (YAngle == 0 && XAngle == 0) // as for a joint
+        return give(task, result, toOrient({z.cosine, 0, 0, z.sine}));
+    return give(task, result, toOrient(robot::fromHalvesZyx(z, half(YAngle), half(XAngle))));
 }
 
 RAPIDC_INLINED Status rt_NOrient(TaskCore* task, data::Orient* result, const data::Orient* Rotation) {
