@@ -44,6 +44,16 @@ double withoutNoise(double value, double noise) {
     return std::fabs(value - nearest) < noise ? nearest : value;
 }
 
+/// A number of the language; nothing is written when the text is something else, or beyond the range of the type.
+template <class T> bool readNumber(std::string_view text, void* out) {
+    double parsed = 0;
+    if (!parseRapidNumber(text, parsed)) return false;
+    const T stored = static_cast<T>(parsed);
+    if (!std::isfinite(stored)) return false;
+    std::memcpy(out, &stored, sizeof stored);
+    return true;
+}
+
 /// Recursive reader of RAPID values; writes to `out` as it goes.
 class ValueReader {
   public:
@@ -84,11 +94,7 @@ class ValueReader {
         size_t end = at_;
         while (end < text_.size() && !ends(text_[end]))
             ++end;
-        double parsed = 0;
-        if (!parseRapidNumber(text_.substr(at_, end - at_), parsed)) return false;
-        const T stored = static_cast<T>(parsed);
-        if (!std::isfinite(stored)) return false;
-        std::memcpy(out, &stored, sizeof stored);
+        if (!readNumber<T>(text_.substr(at_, end - at_), out)) return false;
         at_ = end;
         return true;
     }
@@ -364,6 +370,8 @@ std::string valueToText(const void* data, const TypeDesc& type) {
 }
 
 bool textToValue(std::string_view text, void* data, const TypeDesc& type) {
+    if (type.kind == DescKind::Num) return readNumber<float>(text, data);
+    if (type.kind == DescKind::Dnum) return readNumber<double>(text, data);
     return read(ValueReader(text), data, type);
 }
 

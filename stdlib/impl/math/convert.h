@@ -22,13 +22,22 @@ inline data::Orient toOrient(const robot::Quat& q) {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
+/// A call, because the root and what follows from it would be computed before it is known whether they are needed.
+[[gnu::cold, gnu::noinline]] inline double unusualLength(double square) {
+    return std::sqrt(square);
+}
 /// Scaled to unit length, which binary32 components never have exactly. Close to it the reciprocal of the length is a short
 /// series, whose next term is below the precision of binary64.
 inline robot::Quat toUnitQuat(const data::Orient& o) {
     const robot::Quat q = toQuat(o);
-    const double excess = dot(q, q) - 1;
+    const double square = dot(q, q);
+    const double excess = square - 1;
     constexpr double kClose = 1e-6;
-    if (!(std::abs(excess) < kClose)) return robot::normalized(q);
+    if (!(std::abs(excess) < kClose)) [[unlikely]] {
+        const double length = unusualLength(square);
+        if (!(length > 0)) return {}; // as robot::normalized
+        return {q.w / length, q.x / length, q.y / length, q.z / length};
+    }
     const double scale = 1 + excess * (excess * 0.375 - 0.5);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
