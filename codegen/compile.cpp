@@ -24,6 +24,7 @@
 #include "codegen/native_bodies.h"
 #include "codegen/paced_routines.h"
 #include "codegen/peepholes.h"
+#include "codegen/selected_sums.h"
 #include "codegen/short_loops.h"
 #include "codegen/slow_ways.h"
 #include "codegen/small_copies.h"
@@ -171,6 +172,7 @@ void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
         llvm::FunctionPassManager last;
         last.addPass(SlowWays());
         last.addPass(FiniteSums());
+        last.addPass(SelectedSums());
         last.addPass(ColdConstants());
         passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(last)));
     });

@@ -11,6 +11,7 @@ using ir::Op;
 namespace {
 constexpr int64_t kExactLimit = 1 << 24;   ///< every integer up to here has an exact binary32
 constexpr double kConstantLimit = 1 << 23; ///< a constant leaves room for a sum
+constexpr int64_t kMostWhole = 1024;       ///< natives with the trait "whole" and a num give at most this
 } // namespace
 
 std::optional<RoutineLowering::IntRange> RoutineLowering::intRange(const Expr& expr) const {
@@ -42,6 +43,7 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOf(const Expr& ou
         if (!slot || slot->kind != Slot::Kind::IntLoop) return std::nullopt;
         return IntRange{slot->lo, slot->hi};
     }
+    if (expr.kind == NodeKind::Call) return rangeOfCall(expr);
     if (expr.kind == NodeKind::Unary) {
         const auto& unary = as<UnaryExpr>(expr);
         if (unary.op == UnaryOp::Not) return std::nullopt;
@@ -79,6 +81,14 @@ std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOf(const Expr& ou
     return r;
 }
 
+/// Lengths, positions and bytes.
+std::optional<RoutineLowering::IntRange> RoutineLowering::rangeOfCall(const Expr& call) const {
+    const auto found = facts().calls.find(&call);
+    const sema::RoutineSymbol* callee = found == facts().calls.end() ? nullptr : found->second.routine;
+    if (!callee || !callee->native) return std::nullopt;
+    return callee->traits.has(sema::Trait::Whole) ? std::optional(IntRange{0, kMostWhole}) : std::nullopt;
+}
+
 ir::ValueId RoutineLowering::lowerInt(const Expr& outer) {
     const Expr& expr = unparen(outer);
     const sema::ExprInfo& facts = info(expr);
@@ -87,6 +97,7 @@ ir::ValueId RoutineLowering::lowerInt(const Expr& outer) {
         const Slot* slot = findSlot(*static_cast<const sema::DataSymbol*>(facts.symbol));
         return b_.load(ir::kI32, b_.localAddr(slot->local));
     }
+    if (expr.kind == NodeKind::Call) return b_.convert(Op::FloatToSInt, ir::kI32, lowerCall(expr, ir::kNone));
     if (expr.kind == NodeKind::Unary) {
         const auto& unary = as<UnaryExpr>(expr);
         const ValueId inner = lowerInt(*unary.operand);

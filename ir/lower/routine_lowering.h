@@ -210,6 +210,7 @@ class RoutineLowering {
     std::optional<IntRange> intRange(const Expr& expr) const; ///< that lowerInt can compute
     /// The same in all profiles, for costs: loop variables count by their range even where they are kept as num.
     std::optional<IntRange> valueRange(const Expr& expr) const;
+    std::optional<IntRange> rangeOfCall(const Expr& call) const;
     std::optional<IntRange> rangeOf(const Expr& expr, bool ofValue) const;
     ValueId lowerInt(const Expr& expr);
 

@@ -25,10 +25,11 @@ std::string fill(std::string_view text, std::initializer_list<std::string> argum
     return result;
 }
 
-void countAgain(Event& last, uint64_t sequence, Time time) {
-    if (last.count++ == 1) last.since = last.time;
-    last.sequence = sequence;
-    last.time = time;
+void countAgain(Event& last, const Event& more) {
+    if (last.count == 1) last.since = last.time;
+    last.count += more.count;
+    last.sequence = more.sequence;
+    last.time = more.time;
 }
 
 } // namespace
@@ -49,7 +50,7 @@ std::string formatEventText(EventId id, std::initializer_list<std::string> argum
 
 void EventLog::addErrorName(int number, const char* name, const char* text) {
     names_[number] = {name, text != nullptr ? text : ""};
-    repeatable_ = 0;
+    outdated_ = sequence_;
 }
 
 std::string EventLog::errorName(int number) const {
@@ -63,11 +64,12 @@ std::string EventLog::errorText(int number) const {
 }
 
 uint64_t EventLog::write(Event event) {
+    keepRepeated();
     event.sequence = ++sequence_;
     if (event.time < 0) event.time = now_ ? now_() : 0;
     shown_.take(event);
     keep(event);
-    const uint64_t sequence = repeatable_ = sequence_;
+    const uint64_t sequence = sequence_;
     if (!listeners_.empty()) {
         const auto listeners = listeners_; // a listener may write events, and remove itself
         for (const auto& [id, listener] : listeners)
@@ -76,17 +78,36 @@ uint64_t EventLog::write(Event event) {
     return sequence;
 }
 
-bool EventLog::repeatLast(uint64_t sequence, Time time) {
-    if (sequence == 0 || sequence != repeatable_ || !listeners_.empty()) return false;
-    if (!shown_.repeat(sequence, time)) return false;
-    repeatable_ = ++sequence_;
-    countAgain(events_.back(), sequence_, time);
+bool EventLog::repeat(uint64_t written, Time time) {
+    if (written <= outdated_ || !listeners_.empty()) return false;
+    if (!shown_.repeat(written, sequence_ + 1, time)) return false;
+    ++sequence_;
+    if (repeated_.empty() || repeated_.back().written != written) {
+        repeated_.push_back({written, 0, 0, time, 0});
+        if (repeated_.size() > kKept) repeated_.pop_front();
+    }
+    Repeated& last = repeated_.back();
+    last.sequence = sequence_;
+    last.last = time;
+    ++last.count;
     return true;
 }
 
-void EventLog::keep(const Event& event) {
+void EventLog::keepRepeated() const {
+    for (const Repeated& repeated : repeated_) {
+        Event event = *shown_.find(repeated.written); // nothing has been taken since
+        event.sequence = repeated.sequence;
+        event.time = repeated.last;
+        event.count = repeated.count;
+        event.since = repeated.count > 1 ? repeated.first : 0;
+        keep(event);
+    }
+    repeated_.clear();
+}
+
+void EventLog::keep(const Event& event) const {
     if (!events_.empty() && event.repeats(events_.back())) {
-        countAgain(events_.back(), event.sequence, event.time);
+        countAgain(events_.back(), event);
         return;
     }
     events_.push_back(event);
@@ -99,6 +120,7 @@ uint64_t EventLog::addListener(std::function<void(const Event&)> listener) {
 }
 
 const Event* EventLog::find(uint64_t sequence) const {
+    keepRepeated();
     const auto before = [](const Event& event, uint64_t wanted) { return event.sequence < wanted; };
     const auto found = std::lower_bound(events_.begin(), events_.end(), sequence, before);
     return found != events_.end() && sequence + found->count > found->sequence ? &*found : nullptr;
@@ -143,12 +165,13 @@ void EventLog::putText(const Event& event) {
 }
 
 void EventLog::restore(const std::vector<Event>& events) {
+    keepRepeated();
     const uint64_t last = events.empty() ? 0 : events.back().sequence;
     for (auto event = events.rbegin(); event != events.rend(); ++event)
         if (events_.size() < kKept) events_.push_front(*event);
     // Those written already keep their order.
     sequence_ += last;
-    repeatable_ = 0;
+    outdated_ = sequence_;
     uint64_t number = sequence_;
     for (auto event = events_.rbegin(); event != events_.rend(); ++event) {
         event->sequence = number;

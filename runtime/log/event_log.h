@@ -53,9 +53,10 @@ class EventLog {
 
     /// Keeps and shows an event; sequence is set here, time when it is negative. Returns the sequence number.
     uint64_t write(Event event);
-    /// The event with this sequence number has occurred once more, as if it were written again; the number of that occurrence
-    /// is the next one. False, and nothing is done, when it is not the last event, or when it might read otherwise by now.
-    bool repeatLast(uint64_t sequence, Time time);
+    /// The event that `write` gave this sequence number has occurred once more, as if it were written again; the number of that
+    /// occurrence is the next one. False, and nothing is done, when it is not among the latest different events, or when it might
+    /// read otherwise by now. Costs little: a program may handle millions of errors.
+    bool repeat(uint64_t written, Time time);
     /// An event from event_texts.def; {0} {1} ... in its text are replaced. `origin`: a `const Task*`, may be null.
     uint64_t write(EventId id, EventOrigin origin, std::initializer_list<std::string> arguments = {});
     /// ErrWrite, ErrLog: number in full (domain * 10000 + number), texts as given.
@@ -63,7 +64,10 @@ class EventLog {
                    std::vector<std::string> arguments = {});
 
     /// The newest 1000, oldest first. One that repeats the one before it is counted there.
-    const std::deque<Event>& events() const { return events_; }
+    const std::deque<Event>& events() const {
+        keepRepeated();
+        return events_;
+    }
     /// Events of an earlier run come before those of this one; numbers continue. They are not shown again.
     void restore(const std::vector<Event>& events);
     /// The event with this sequence number, while it is kept.
@@ -78,8 +82,16 @@ class EventLog {
     void show(const Event& event);
     void putJson(const Event& event);
     void putText(const Event& event);
-    void keep(const Event& event);
-    std::deque<Event> events_;
+    /// Repetitions in succession that are not among `events_` yet: most of them never need an event of their own.
+    struct Repeated {
+        uint64_t written = 0; ///< see repeat()
+        uint64_t sequence = 0, count = 0;
+        Time first = 0, last = 0;
+    };
+    void keep(const Event& event) const;
+    void keepRepeated() const;
+    mutable std::deque<Event> events_;
+    mutable std::deque<Repeated> repeated_; ///< later than those; the newest 1000
     std::map<int, std::pair<const char*, const char*>> names_;
     std::function<Time()> now_;
     std::map<uint64_t, std::function<void(const Event&)>> listeners_;
@@ -91,7 +103,7 @@ class EventLog {
     BoundedOutput toFile_{kMostInFile, [this](const Event& event) { putJson(event); }};
     RepeatFilter shown_{[this](const Event& event) { show(event); }};
     uint64_t sequence_ = 0;
-    uint64_t repeatable_ = 0; ///< the event that repeatLast may repeat; 0: none
+    uint64_t outdated_ = 0; ///< events up to this number are not repeated: names of errors may have changed
 };
 
 /// The row of event_texts.def.

@@ -43,21 +43,30 @@ void RepeatFilter::take(const Event& event) {
                                     [&event](const Known& known) { return event.repeats(known.event); });
     if (found != known_.rend()) {
         count(*found, event.sequence, event.time);
+        found->taken = event.sequence;
         return;
     }
     flush();
     put_(event);
-    known_.push_back({event, 0, 0});
+    known_.push_back({event, 0, 0, event.sequence});
     if (known_.size() > kWindow) known_.pop_front();
 }
 
-bool RepeatFilter::repeat(uint64_t sequence, Time time) {
-    const auto found = std::find_if(known_.rbegin(), known_.rend(), [sequence](const Known& known) {
-        return known.event.sequence == sequence;
-    });
-    if (found == known_.rend()) return false;
-    count(*found, sequence + 1, time);
-    return true;
+const RepeatFilter::Known* RepeatFilter::knownAs(uint64_t taken) const {
+    const auto found = std::find_if(known_.rbegin(), known_.rend(),
+                                    [taken](const Known& known) { return known.taken == taken; });
+    return found == known_.rend() ? nullptr : &*found;
+}
+
+bool RepeatFilter::repeat(uint64_t taken, uint64_t sequence, Time time) {
+    auto* const known = const_cast<Known*>(knownAs(taken)); // of this object, which is not const
+    if (known != nullptr) count(*known, sequence, time);
+    return known != nullptr;
+}
+
+const Event* RepeatFilter::find(uint64_t taken) const {
+    const Known* const known = knownAs(taken);
+    return known != nullptr ? &known->event : nullptr;
 }
 
 void RepeatFilter::count(Known& known, uint64_t sequence, Time time) {

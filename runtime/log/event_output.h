@@ -17,8 +17,10 @@ class RepeatFilter {
   public:
     explicit RepeatFilter(std::function<void(const Event&)> put) : put_(std::move(put)) {}
     void take(const Event& event);
-    /// The event that was taken last, with this sequence number, has come again, as the next one. False: it is not counted.
-    bool repeat(uint64_t sequence, Time time);
+    /// The event that was taken with the sequence number `taken` has come again, under another number. False: it is not counted.
+    bool repeat(uint64_t taken, uint64_t sequence, Time time);
+    /// That event, with sequence number and time of its last repetition; null: it is not among the latest.
+    const Event* find(uint64_t taken) const;
     /// The counts that are open.
     void flush();
 
@@ -28,7 +30,9 @@ class RepeatFilter {
         Event event;          ///< sequence and time of the last repetition
         uint64_t repeats = 0; ///< not passed on yet
         Time since = 0;       ///< of the first of them
+        uint64_t taken = 0;   ///< sequence number at the last `take`
     };
+    const Known* knownAs(uint64_t taken) const;
     static void count(Known& known, uint64_t sequence, Time time);
     std::function<void(const Event&)> put_;
     std::deque<Known> known_; ///< the latest one last

@@ -11,10 +11,6 @@ namespace robot {
 
 namespace {
 
-struct HalfAngle {
-    double cosine, sine;
-};
-
 /// Without calling the library for the commonest angle, 0.
 HalfAngle halfOf(double deg) {
     const double half = deg * kDeg / 2;
@@ -24,18 +20,6 @@ HalfAngle halfOf(double deg) {
     return both;
 }
 
-Quat aboutX(double deg) {
-    const HalfAngle half = halfOf(deg);
-    return {half.cosine, half.sine, 0, 0};
-}
-Quat aboutY(double deg) {
-    const HalfAngle half = halfOf(deg);
-    return {half.cosine, 0, half.sine, 0};
-}
-Quat aboutZ(double deg) {
-    const HalfAngle half = halfOf(deg);
-    return {half.cosine, 0, 0, half.sine};
-}
 } // namespace
 
 Vec3 rotationVector(const Quat& q) {
@@ -68,7 +52,7 @@ Quat turnedBy(const Quat& base, const Vec3& rotation, double share) {
 }
 
 Quat fromEulerZyx(double zDeg, double yDeg, double xDeg) {
-    return aboutZ(zDeg) * aboutY(yDeg) * aboutX(xDeg);
+    return fromHalvesZyx(halfOf(zDeg), halfOf(yDeg), halfOf(xDeg));
 }
 
 Vec3 eulerZyx(const Quat& q) {
@@ -88,8 +72,9 @@ Pose offs(const Pose& target, double x, double y, double z) {
 
 Pose relTool(const Pose& target, double x, double y, double z, double rxDeg, double ryDeg, double rzDeg) {
     // "First about x, then y, then z" of the tool as it has been turned so far: intrinsic rotations.
-    const Pose step{{x, y, z}, aboutX(rxDeg) * aboutY(ryDeg) * aboutZ(rzDeg)};
-    return target * step;
+    const Vec3 pos = apply(target, {x, y, z});
+    if (rxDeg == 0 && ryDeg == 0) return {pos, turnedAboutZ(target.rot, halfOf(rzDeg))}; // as a rule
+    return {pos, target.rot * fromHalvesXyz(halfOf(rxDeg), halfOf(ryDeg), halfOf(rzDeg))};
 }
 
 } // namespace robot

@@ -49,6 +49,27 @@ inline Quat operator*(const Quat& a, const Quat& b) {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
+/// Half of an angle of rotation.
+struct HalfAngle {
+    double cosine = 1, sine = 0;
+};
+/// The quaternion times a rotation about x, or z: without the products of components that are 0.
+inline Quat turnedAboutX(const Quat& q, const HalfAngle& x) {
+    return {q.w * x.cosine - q.x * x.sine, q.w * x.sine + q.x * x.cosine, q.y * x.cosine + q.z * x.sine,
+            q.z * x.cosine - q.y * x.sine};
+}
+inline Quat turnedAboutZ(const Quat& q, const HalfAngle& z) {
+    return {q.w * z.cosine - q.z * z.sine, q.x * z.cosine + q.y * z.sine, q.y * z.cosine - q.x * z.sine,
+            q.w * z.sine + q.z * z.cosine};
+}
+/// Rotations about z, then the new y, then the new x.
+inline Quat fromHalvesZyx(const HalfAngle& z, const HalfAngle& y, const HalfAngle& x) {
+    return turnedAboutX({z.cosine * y.cosine, -(z.sine * y.sine), z.cosine * y.sine, z.sine * y.cosine}, x);
+}
+/// Rotations about x, then the new y, then the new z.
+inline Quat fromHalvesXyz(const HalfAngle& x, const HalfAngle& y, const HalfAngle& z) {
+    return turnedAboutZ({x.cosine * y.cosine, x.sine * y.cosine, x.cosine * y.sine, x.sine * y.sine}, z);
+}
 inline Quat conjugate(const Quat& q) {
     return {q.w, -q.x, -q.y, -q.z};
 }

@@ -19,6 +19,7 @@
 #include "runtime/sched/raised_error.h"
 #include "runtime/sched/retry_counts.h"
 
+#include <array>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -519,8 +520,13 @@ class Task : public TaskCore {
     std::vector<RetryCount> retries_;
     int32_t lastRetryId_ = 0;
     std::vector<HandledError> handled_; // not reported yet; innermost handler last
-    HandledError warned_;               // reported last,
-    uint64_t warnedEvent_ = 0;          // and the sequence number of its event
+    struct Warned {
+        HandledError handled;
+        uint64_t event = 0; ///< sequence number; 0: not used yet
+    };
+    static constexpr size_t kWarned = 8; // a loop may handle several errors in turns
+    std::array<Warned, kWarned> warned_; // reported lately,
+    size_t nextWarned_ = 0;              // and where the next one goes
 
     static constexpr int32_t kAsksForReentry = 2; // beside what a debugger asks
     Standing standing_ = Standing::Between;

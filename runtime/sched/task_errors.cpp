@@ -460,12 +460,14 @@ void Task::skipWarn() {
 [[gnu::noinline, gnu::cold]] void Task::writeHandledWarning() {
     HandledError handled = std::move(handled_.back());
     handled_.pop_back();
-    // A loop that handles one error again and again only counts its event.
-    const bool isSame = handled.routine == warned_.routine && handled.number == warned_.number &&
-                        handled.error.isLike(warned_.error);
-    if (isSame && host_.log().repeatLast(warnedEvent_, now())) {
-        ++warnedEvent_;
-        return;
+    // A loop that handles the same errors again and again only counts their events.
+    for (Warned& warned : warned_) {
+        const bool isSame = warned.event != 0 && handled.routine == warned.handled.routine &&
+                            handled.number == warned.handled.number &&
+                            handled.error.isLike(warned.handled.error);
+        if (!isSame) continue;
+        if (host_.log().repeat(warned.event, now())) return;
+        warned.event = 0; // it is written again
     }
     const std::string text = handled.error.text(host_.log());
     Event event;
@@ -479,8 +481,8 @@ void Task::skipWarn() {
     event.task = name_;
     event.errorNumber = handled.number;
     event.errorName = host_.log().errorName(handled.number);
-    warnedEvent_ = host_.log().write(std::move(event));
-    warned_ = std::move(handled);
+    warned_[nextWarned_] = {std::move(handled), host_.log().write(std::move(event))};
+    nextWarned_ = (nextWarned_ + 1) % kWarned;
 }
 
 } // namespace rt

@@ -44,6 +44,16 @@ double withoutNoise(double value, double noise) {
     return std::fabs(value - nearest) < noise ? nearest : value;
 }
 
+/// A number of the language; nothing is written when the text is something else, or beyond the range of the type.
+template <class T> bool readNumber(std::string_view text, void* out) {
+    double parsed = 0;
+    if (!parseRapidNumber(text, parsed)) return false;
+    const T stored = static_cast<T>(parsed);
+    if (!std::isfinite(stored)) return false;
+    std::memcpy(out, &stored, sizeof stored);
+    return true;
+}
+
 /// Recursive reader of RAPID values; writes to `out` as it goes.
 class ValueReader {
   public:
@@ -80,13 +90,11 @@ class ValueReader {
 
     template <class T> bool number(char* out) {
         skipBlanks();
-        size_t end = text_.find_first_of(",] \t", at_);
-        if (end == std::string_view::npos) end = text_.size();
-        double parsed = 0;
-        if (!parseRapidNumber(text_.substr(at_, end - at_), parsed)) return false;
-        const T stored = static_cast<T>(parsed);
-        if (!std::isfinite(stored)) return false;
-        std::memcpy(out, &stored, sizeof stored);
+        const auto ends = [](char c) { return c == ',' || c == ']' || c == ' ' || c == '\t'; };
+        size_t end = at_;
+        while (end < text_.size() && !ends(text_[end]))
+            ++end;
+        if (!readNumber<T>(text_.substr(at_, end - at_), out)) return false;
         at_ = end;
         return true;
     }
@@ -166,10 +174,14 @@ class ValueReader {
 };
 
 bool read(ValueReader reader, void* data, const TypeDesc& type) {
-    std::vector<char> copy(type.size); // a text that fails half-way must leave the data alone
-    std::memcpy(copy.data(), data, type.size);
-    if (!reader.value(copy.data(), type) || !reader.atEnd()) return false;
-    std::memcpy(data, copy.data(), type.size);
+    constexpr size_t kFew = 256;
+    char few[kFew];
+    std::vector<char> many(type.size > kFew ? type.size : 0);
+    char* const copy =
+        many.empty() ? few : many.data(); // a text that fails half-way must leave the data alone
+    std::memcpy(copy, data, type.size);
+    if (!reader.value(copy, type) || !reader.atEnd()) return false;
+    std::memcpy(data, copy, type.size);
     return true;
 }
 
@@ -304,6 +316,30 @@ bool parsePrefixed(std::string_view digits, double& value) {
     return error == std::errc() && stop == end;
 }
 
+/// Digits with or without a point, few enough that both numbers of the division are exact: its result is rounded once, as that of
+/// from_chars. False: something else, or too long.
+bool parseShortDecimal(std::string_view text, double& value) {
+    constexpr size_t kExactDigits = 15;
+    constexpr double kPowers[kExactDigits + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    if (text.size() > kExactDigits) return false;
+    uint64_t digits = 0;
+    size_t decimals = 0;
+    bool hasPoint = false;
+    for (const char c : text) {
+        if (c == '.' && !hasPoint) {
+            hasPoint = true;
+        } else if (c >= '0' && c <= '9') {
+            digits = digits * 10 + static_cast<uint64_t>(c - '0');
+            decimals += hasPoint ? 1 : 0;
+        } else {
+            return false;
+        }
+    }
+    value = static_cast<double>(digits) / kPowers[decimals];
+    return text != ".";
+}
+
 } // namespace
 
 std::string formatNum(float value) {
@@ -334,6 +370,8 @@ std::string valueToText(const void* data, const TypeDesc& type) {
 }
 
 bool textToValue(std::string_view text, void* data, const TypeDesc& type) {
+    if (type.kind == DescKind::Num) return readNumber<float>(text, data);
+    if (type.kind == DescKind::Dnum) return readNumber<double>(text, data);
     return read(ValueReader(text), data, type);
 }
 
@@ -360,7 +398,7 @@ bool parseRapidNumber(std::string_view text, double& value) {
     }
     // from_chars alone would take "inf", "nan" and a second sign
     if (text.empty() || !(text[0] == '.' || (text[0] >= '0' && text[0] <= '9'))) return false;
-    if (!parsePrefixed(text, value)) {
+    if (!parseShortDecimal(text, value) && !parsePrefixed(text, value)) {
         const char* end = text.data() + text.size();
         const auto [stop, error] = std::from_chars(text.data(), end, value);
         if (error != std::errc() || stop != end) return false;

@@ -5,6 +5,8 @@
 
 #include "stdlib_types.h"
 
+#include <cmath>
+
 namespace rt::lib {
 
 inline robot::Vec3 toVec(const data::Pos& p) {
@@ -20,15 +22,33 @@ inline data::Orient toOrient(const robot::Quat& q) {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
-/// The quaternion is scaled to unit length, which binary32 components never have exactly.
+/// A call, because the root and what follows from it would be computed before it is known whether they are needed.
+[[gnu::cold, gnu::noinline]] inline double unusualLength(double square) {
+    return std::sqrt(square);
+}
+/// Scaled to unit length, which binary32 components never have exactly. Close to it the reciprocal of the length is a short
+/// series, whose next term is below the precision of binary64.
+inline robot::Quat toUnitQuat(const data::Orient& o) {
+    const robot::Quat q = toQuat(o);
+    const double square = dot(q, q);
+    const double excess = square - 1;
+    constexpr double kClose = 1e-6;
+    if (!(std::abs(excess) < kClose)) [[unlikely]] {
+        const double length = unusualLength(square);
+        if (!(length > 0)) return {}; // as robot::normalized
+        return {q.w / length, q.x / length, q.y / length, q.z / length};
+    }
+    const double scale = 1 + excess * (excess * 0.375 - 0.5);
+    return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
+}
 inline robot::Pose toFrame(const data::Pose& p) {
-    return {toVec(p.trans), robot::normalized(toQuat(p.rot))};
+    return {toVec(p.trans), toUnitQuat(p.rot)};
 }
 inline data::Pose toPose(const robot::Pose& p) {
     return {toPos(p.pos), toOrient(p.rot)};
 }
 inline robot::Pose toFrame(const data::Robtarget& t) {
-    return {toVec(t.trans), robot::normalized(toQuat(t.rot))};
+    return {toVec(t.trans), toUnitQuat(t.rot)};
 }
 
 } // namespace rt::lib

@@ -13,6 +13,18 @@
 using namespace rt;
 using namespace rt::lib;
 
+namespace {
+
+/// Rotations are of unit length: only the position can be out of range.
+Status givePose(TaskCore* task, data::Pose* result, const robot::Pose& pose) {
+    const data::Pose out = toPose(pose);
+    if (!isFinite(out.trans)) return tooLarge(task);
+    *result = out;
+    return kOk;
+}
+
+} // namespace
+
 extern "C" {
 
 // One of three angles: which one is known when it is inlined, as a rule.
@@ -23,29 +35,34 @@ RAPIDC_INLINED Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y,
     return give(task, result, static_cast<float>(X ? angles.x : Y ? angles.y : angles.z));
 }
 
-Status rt_OrientZYX(TaskCore* task, data::Orient* result, float ZAngle, float YAngle, float XAngle) {
+Status rt_OrientZYX(TaskCore*, data::Orient* result, float ZAngle, float YAngle, float XAngle) {
     // By half angles: exact for multiples of 90 degrees.
-    const SineCosine z = sinCosDeg(ZAngle / 2.0), y = sinCosDeg(YAngle / 2.0), x = sinCosDeg(XAngle / 2.0);
-    const robot::Quat aboutZ{z.cosine, 0, 0, z.sine};
-    const robot::Quat aboutY{y.cosine, 0, y.sine, 0};
-    const robot::Quat aboutX{x.cosine, x.sine, 0, 0};
-    return give(task, result, toOrient(aboutZ * aboutY * aboutX));
+    const auto half = [](float angle) {
+        const SineCosine both = sinCosDeg(angle / 2.0);
+        return robot::HalfAngle{both.cosine, both.sine};
+    };
+    const robot::HalfAngle z = half(ZAngle);
+    const bool isOneTurn = YAngle == 0 && XAngle == 0; // as that of a joint
+    *result = toOrient(isOneTurn ? robot::Quat{z.cosine, 0, 0, z.sine}
+                                 : robot::fromHalvesZyx(z, half(YAngle), half(XAngle)));
+    return kOk;
 }
 
 RAPIDC_INLINED Status rt_NOrient(TaskCore* task, data::Orient* result, const data::Orient* Rotation) {
     const robot::Quat q = toQuat(*Rotation);
     if (!(dot(q, q) > 1e-12))
         return fail(task, err::ERR_ILLQUAT, "an orientation of length 0 has no direction");
-    return give(task, result, toOrient(robot::normalized(q)));
+    *result = toOrient(robot::normalized(q));
+    return kOk;
 }
 
 RAPIDC_INLINED Status rt_PoseInv(TaskCore* task, data::Pose* result, const data::Pose* Pose) {
-    return give(task, result, toPose(robot::inverse(toFrame(*Pose))));
+    return givePose(task, result, robot::inverse(toFrame(*Pose)));
 }
 
 RAPIDC_INLINED Status rt_PoseMult(TaskCore* task, data::Pose* result, const data::Pose* Pose1,
                                   const data::Pose* Pose2) {
-    return give(task, result, toPose(toFrame(*Pose1) * toFrame(*Pose2)));
+    return givePose(task, result, toFrame(*Pose1) * toFrame(*Pose2));
 }
 
 RAPIDC_INLINED Status rt_PoseVect(TaskCore* task, data::Pos* result, const data::Pose* Pose,

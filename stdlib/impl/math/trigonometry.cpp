@@ -19,8 +19,16 @@ namespace {
 
 constexpr double kTangentPole = 1.633123935319537e16; // tan(pi/2) of binary64
 
-/// Rest within +-45 degrees, and the quadrant 0..3 it belongs to. remquo is exact.
+/// Rest within +-45 degrees, and the quadrant 0..3 it belongs to. Both ways are exact: the product has few digits, and the two
+/// numbers subtracted are of one magnitude. remquo is left for large angles and for those half way between two quadrants.
 double reduced(double degrees, int& quadrant) {
+    constexpr double kUsual = 1e9;
+    const double quarters = std::rint(degrees * (1 / 90.0));
+    const double usual = degrees - quarters * 90.0;
+    if (std::abs(usual) < 45.0 && std::abs(degrees) < kUsual) {
+        quadrant = static_cast<int>(quarters) & 3;
+        return usual == 0 ? std::copysign(0.0, degrees) : usual;
+    }
     int quotient = 0;
     const double rest = std::remquo(degrees, 90.0, &quotient);
     quadrant = quotient & 3;
@@ -46,8 +54,8 @@ double cosDeg(double degrees) {
 SineCosine sinCosDeg(double degrees) {
     int quadrant = 0;
     const double rest = reduced(degrees, quadrant) * robot::kDeg;
-    double sine = 0, cosine = 0;
-    ::sincos(rest, &sine, &cosine);
+    double sine = rest, cosine = 1;
+    if (rest != 0) ::sincos(rest, &sine, &cosine);
     if (quadrant % 2 != 0) std::swap(sine, cosine);
     return {quadrant < 2 ? sine : 0.0 - sine, quadrant == 0 || quadrant == 3 ? cosine : 0.0 - cosine};
 }

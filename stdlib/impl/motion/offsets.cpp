@@ -28,7 +28,7 @@ Status rt_RelTool(TaskCore* task, data::Robtarget* result, const data::Robtarget
     data::Robtarget out = *Point;
     out.trans = lib::toPos(moved.pos);
     out.rot = lib::toOrient(moved.rot);
-    if (!lib::isFinite(out.trans) || !lib::isFinite(out.rot)) return lib::tooLarge(task);
+    if (!lib::isFinite(out.trans)) return lib::tooLarge(task); // the rotation is of unit length
     *result = out;
     return kOk;
 }

@@ -89,6 +89,11 @@ Status rt_ByteToStr(TaskCore* task, String* result, float BitData, bool Hex, boo
     if (!(BitData >= 0 && BitData <= 255) || std::trunc(BitData) != BitData)
         return lib::fail(task, err::ERR_ARGVALERR, "a byte is a whole number from 0 to 255");
     const auto value = static_cast<uint32_t>(BitData);
+    if (Char && value < 0x80) {
+        result->bytes[0] = static_cast<char>(value);
+        result->length = 1;
+        return kOk;
+    }
     if (Char) return store(task, result, lib::encodeUtf8(value));
     return store(task, result, digits(value, baseOf(Hex, Okt, Bin), Hex ? 2 : Okt ? 3 : Bin ? 8 : 1));
 }
@@ -97,6 +102,10 @@ Status rt_StrToByte(TaskCore* task, float* result, const String* ConStr, bool He
                     bool Char) {
     const std::string_view text = ConStr->view();
     uint64_t value = 0;
+    if (Char && text.size() == 1) {
+        *result = static_cast<uint8_t>(text[0]);
+        return kOk;
+    }
     const bool valid = Char ? lib::characterCount(text) == 1 && (value = lib::codePoint(text)) <= 255
                             : lib::readDigits(text, baseOf(Hex, Okt, Bin), 255, value);
     if (!valid)

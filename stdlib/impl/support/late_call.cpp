@@ -43,6 +43,44 @@ template <class T, std::size_t Few> class FewObjects {
     T* data_;
 };
 
+/// Arguments of the usual call: given in order, of the very types of the parameters, for IN and INOUT. Asks nothing else.
+class PlainArguments {
+  public:
+    /// False: `Binder` is to match them.
+    bool bind(const RoutineEntry& routine, const LateCallArg* args, int32_t count) {
+        if (static_cast<uint32_t>(count) != routine.paramCount || routine.paramCount > kMost) return false;
+        std::byte* room = copies_;
+        for (uint32_t i = 0; i < routine.paramCount; ++i) {
+            const LateCallArg& arg = args[i];
+            const ParamDesc& param = routine.params[i];
+            const bool isPlain = arg.parameter == nullptr && arg.data != nullptr && param.optional == 0 &&
+                                 param.rank == 0 && arg.type == param.type && param.type != nullptr;
+            if (!isPlain) return false;
+            bound_[i] = {arg.data, arg.type, arg.objectName};
+            const bool reference = (arg.flags & (kLateReference | kLateConstant)) == kLateReference;
+            if (param.mode == kParamInOut ? !reference : param.mode != kParamIn) return false;
+            if (!reference || param.mode == kParamInOut) continue;
+            // The routine may reach the object otherwise: it gets a copy.
+            const bool isWords = param.type->kind == DescKind::Num || param.type->kind == DescKind::Bool ||
+                                 param.type->kind == DescKind::Dnum || param.type->kind == DescKind::String ||
+                                 param.type->kind == DescKind::Record;
+            if (!isWords || param.type->size > static_cast<std::size_t>(copies_ + sizeof copies_ - room))
+                return false;
+            std::memcpy(room, arg.data, param.type->size);
+            bound_[i].data = room;
+            room += (param.type->size + kAlign - 1) / kAlign * kAlign;
+        }
+        return true;
+    }
+    const LateArg* arguments() const { return bound_; }
+
+  private:
+    static constexpr uint32_t kMost = 6;
+    static constexpr std::size_t kAlign = 8;
+    LateArg bound_[kMost];
+    alignas(kAlign) std::byte copies_[192];
+};
+
 /// Matches the arguments of a call to the parameters of a routine: required ones in order, optional ones by name.
 class Binder {
   public:
@@ -182,6 +220,8 @@ Status rt_lateCall(TaskCore* core, const String* name, const LateCallArg* args, 
         return refuse(fmt::format("it is a {}, not a {}", wordFor(routine->kind), wordFor(kind)));
     if (kind == kRoutineProc && !task.controller().debugger().allowsCall(task, caller, *routine->desc))
         return kOk;
+    if (PlainArguments plain; plain.bind(*routine, args, count))
+        return task.passOn(routine->late(core, caller, plain.arguments(), result));
     std::string problem;
     Status status = kOk;
     {

@@ -2,6 +2,7 @@
 
 #include "runtime/abi/support_natives.h"
 #include "runtime/abi/whole_division.h"
+#include "stdlib/impl/support/blocks.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/inlined.h"
 
@@ -58,8 +59,15 @@ RAPIDC_INLINED Status rt_strConcat(TaskCore* task, String* result, const String*
         return lib::failWith(task, err::ERR_STRTOOLNG,
                              "the joined string has {} bytes; a string holds at most 80",
                              static_cast<double>(size));
-    std::memmove(result->bytes + front, b->bytes, size - front);
-    if (result != a) std::memcpy(result->bytes, a->bytes, front);
+    if (size - front <= lib::kBlock && front + lib::kBlock <= sizeof result->bytes) {
+        char block[lib::kBlock]; // a short text without a call, with what follows it
+        std::memcpy(block, b->bytes, sizeof block);
+        if (result != a) lib::copyText(result->bytes, sizeof result->bytes, a->bytes, sizeof a->bytes, front);
+        std::memcpy(result->bytes + front, block, sizeof block);
+    } else {
+        std::memmove(result->bytes + front, b->bytes, size - front);
+        if (result != a) std::memcpy(result->bytes, a->bytes, front);
+    }
     result->length = static_cast<uint32_t>(size);
     return kOk;
 }
