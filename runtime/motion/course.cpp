@@ -43,7 +43,7 @@ void Course::dropLongWindow(double time) {
 }
 
 void Course::push(const Knot& knot) {
-    const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot
+    const Integrals there = integralsOn(knots_.back(), knot.t); // with the acceleration of the last knot
     knots_.push_back(knot);
     knots_.back().once = there.once;
     knots_.back().twice = there.twice;
@@ -190,7 +190,10 @@ const Course::Knot& Course::knotAt(double time) const {
 }
 
 Course::Integrals Course::integralsAt(double time) const {
-    const Knot& from = knotAt(time);
+    return integralsOn(knotAt(time), time);
+}
+
+Course::Integrals Course::integralsOn(const Knot& from, double time) {
     const double t = time - from.t; // below 0 before the first knot, where the arm rests
     if (t < 0) {
         return {from.s, from.once + t * from.s, from.twice + t * (from.once + t * from.s / 2), 0};

@@ -86,6 +86,7 @@ class Course {
     static CourseState stateOn(const Knot& knot, double seconds);
     static double timeOn(const Knot& knot, double way, double most);
     Integrals integralsAt(double time) const;
+    static Integrals integralsOn(const Knot& from, double time);
     void push(const Knot& knot);
 
     std::vector<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0

@@ -61,14 +61,13 @@ void OptimalPlan::measure(const Route& route, std::size_t from) {
 }
 
 void OptimalPlan::forget(std::size_t stretches) {
-    const auto count = static_cast<std::ptrdiff_t>(stretches);
-    cells_.erase(cells_.begin(), cells_.begin() + count);
-    begins_.erase(begins_.begin(), begins_.begin() + count);
+    cells_.forget(stretches);
+    begins_.forget(stretches);
 }
 
 std::size_t OptimalPlan::cellAt(double place) const {
-    const auto after = std::upper_bound(begins_.begin(), begins_.end(), place);
-    return after == begins_.begin() ? 0 : static_cast<std::size_t>(after - begins_.begin()) - 1;
+    const std::size_t begun = begins_.countUpTo(place, [](double begin) { return begin; });
+    return begun == 0 ? 0 : begun - 1;
 }
 
 std::vector<ProfileCell> OptimalPlan::pathBetween(double from, double to, double share) const {

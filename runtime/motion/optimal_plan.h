@@ -3,10 +3,10 @@
 
 #include "runtime/motion/course.h"
 #include "runtime/motion/profile_grid.h"
+#include "runtime/motion/queue.h"
 #include "runtime/motion/route_profile.h"
 #include "runtime/motion/velocity_ramp.h"
 
-#include <deque>
 #include <optional>
 
 namespace motion {
@@ -63,8 +63,8 @@ class OptimalPlan {
     static void follow(Course& course, const Slowing& slowing);
 
     ArmLimits limits_;
-    std::deque<ProfileCell> cells_; // of each stretch, at full override
-    std::deque<double> begins_;
+    Queue<ProfileCell> cells_; // of each stretch, at full override
+    Queue<double> begins_;
     double share_ = 1;
     double endRampShare_ = 1;
     bool keepsTicks_ = false; // the plan that was found last keeps all limits at each tick
