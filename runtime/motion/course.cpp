@@ -159,11 +159,13 @@ void Course::slowBy(double factor) {
     }
 }
 
-void Course::forgetBefore(double time) {
+bool Course::forgetBefore(double time) {
+    const bool wasContinued = before_ != nullptr;
     if (time >= from_) before_ = nullptr;
     const double needed = time - longWindow_ - shortWindow_;
     constexpr std::size_t kWorthwhile = 256;
-    if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed) return;
+    if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed)
+        return wasContinued && before_ == nullptr;
     std::size_t spare = kWorthwhile;
     while (spare + 1 < knots_.size() && knots_[spare + 1].t <= needed)
         ++spare;
@@ -181,6 +183,7 @@ void Course::forgetBefore(double time) {
         knots_[i].twice =
             from.twice + t * (from.once + t * (from.s / 2 + t * (from.v / 6 + t * from.a / 24)));
     }
+    return true;
 }
 
 const Course::Knot& Course::knotAt(double time) const {

@@ -546,15 +546,19 @@ Course Run::courseBack(double time, double from, double to, double mmPerSecond) 
     return course;
 }
 
-void Run::forgetBefore(double time, double place) {
-    course_.forgetBefore(time);
+bool Run::forgetBefore(double time, double place) {
+    const bool isRoundedAnew = course_.forgetBefore(time);
     const std::size_t count = route_.forgetBefore(place);
-    if (count == 0) return;
-    if (optimal_) return optimal_->forget(count);
+    if (count == 0) return isRoundedAnew;
+    if (optimal_) {
+        optimal_->forget(count);
+        return isRoundedAnew;
+    }
     limits_.forget(count);
     reachable_.forget(count);
     planned_.forget(count);
     changed_ = limits_.size() + 1;
+    return isRoundedAnew;
 }
 
 } // namespace motion

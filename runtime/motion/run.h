@@ -70,7 +70,8 @@ class Run {
     /// Shifts the start; the run has not begun.
     void startAt(double time);
     bool isBraking() const { return isBraking_; } ///< the plan ends before the route does
-    void forgetBefore(double time, double place);
+    /// True if times of the course may be rounded in another way from now on.
+    bool forgetBefore(double time, double place);
 
   private:
     Course newCourse(double time, double place) const;
