@@ -57,7 +57,7 @@ class OptimalPlan {
     struct Use {
         double acceleration = 0, jerk = 0;
     };
-    Use useAt(const Route& route, const std::array<Joints, 4>& axes, double place) const;
+    Use useAt(const Route& route, const std::array<const Joints*, 4>& axes, double place) const;
     static void tighten(ProfileCell& cell, const Use& use, double speed, int round);
     Course stopped(const Course& course, double now) const;
     static void follow(Course& course, const Slowing& slowing);
