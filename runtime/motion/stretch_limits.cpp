@@ -14,6 +14,12 @@ double atMost(double limit, double rate) {
     return size > 1e-12 ? limit / size : kUnlimited;
 }
 
+using Pair = double __attribute__((vector_size(16)));
+
+template <class Numbers> Pair pairAt(const Numbers& numbers, std::size_t i) {
+    return {numbers[i], numbers[i + 1]};
+}
+
 } // namespace
 
 /// On a stretch with squares x0 and x1 at its ends each row accelerates by first * (x1 - x0) / (2 width) + second * (x0 + x1) / 2.
@@ -22,13 +28,13 @@ void AccelerationRows::narrow(SquareRange& range, double square, double width, b
     const double sign = towardsEnd ? 1 : -1;
     Pair low = {range.low, range.low};
     Pair high = {range.high, range.high};
-    for (std::size_t i = 0; 2 * i < count_; ++i) {
-        const Two& row = twos_[i];
-        const Pair change = sign * row.first / (2 * width);
-        const Pair there = change + 0.5 * row.second;
-        const Pair here = (0.5 * row.second - change) * square;
-        const Pair a = (row.most - here) / there;
-        const Pair b = (-row.most - here) / there;
+    for (std::size_t i = 0; i < count_; i += 2) {
+        const Pair second = pairAt(second_, i), most = pairAt(most_, i);
+        const Pair change = sign * pairAt(first_, i) / (2 * width);
+        const Pair there = change + 0.5 * second;
+        const Pair here = (0.5 * second - change) * square;
+        const Pair a = (most - here) / there;
+        const Pair b = (-most - here) / there;
         const auto counts = (there >= kLeast) | (there <= -kLeast);
         const Pair larger = counts ? (a < b ? b : a) : high;
         const Pair smaller = counts ? (b < a ? b : a) : low;

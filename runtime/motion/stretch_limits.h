@@ -20,25 +20,19 @@ class AccelerationRows {
   public:
     /// One more, if there is room. `first`, `second`: derivatives by the place; `most`: in the unit of the quantity per s^2.
     void add(double first, double second, double most) {
-        if (count_ == 2 * kMostPairs) return;
-        const std::size_t lane = count_ % 2;
-        Two& two = twos_[count_++ / 2];
-        if (lane == 0) two = {};
-        two.first[lane] = first;
-        two.second[lane] = second;
-        two.most[lane] = most;
+        if (count_ == kMost) return;
+        first_[count_] = first;
+        second_[count_] = second;
+        most_[count_++] = most;
+        first_[count_] = second_[count_] = most_[count_] = 0; // beside it, where the last one is alone
     }
     /// Narrows `range` to the squares at the other end of a stretch of this width (mm) that keep all of them, from this square at
     /// one end on. `towardsEnd`: from the beginning of the stretch to its end.
     void narrow(SquareRange& range, double square, double width, bool towardsEnd) const;
 
   private:
-    static constexpr std::size_t kMostPairs = 7;
-    using Pair = double __attribute__((vector_size(16)));
-    struct Two {
-        Pair first{}, second{}, most{};
-    };
-    std::array<Two, kMostPairs> twos_; // the first ones are set
+    static constexpr std::size_t kMost = 14;
+    std::array<double, kMost + 1> first_, second_, most_; // the first ones are set
     std::size_t count_ = 0;
 };
 
