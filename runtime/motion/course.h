@@ -52,7 +52,7 @@ class Course {
     void shift(double seconds);
     /// Makes the whole exact plan take that many times as long.
     void slowBy(double factor);
-    /// Forgets what no question about `time` or later needs. True if answers may be rounded in another way from now on.
+    /// Forgets what no question about `time` or later needs. True if answers may be rounded differently from now on.
     bool forgetBefore(double time);
 
     /// The plan, before it is averaged.

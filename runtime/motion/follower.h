@@ -44,7 +44,7 @@ class Follower final : public Trajectory {
     double backEnd() const override { return leader_->backEnd(); }
     void finishBack(double now) override { leader_->finishBack(now); }
     void standAt(double now, const PathPlace& place) override { leader_->standAt(now, leading(place)); }
-    bool isShared() const override { return true; }
+    std::size_t companionCount() const override { return leader_->companionCount(); }
     bool forgetBefore(double time, const LegRef& leg) override {
         oldestTime_ = time;
         oldest_ = leg;

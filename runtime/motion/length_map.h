@@ -46,8 +46,8 @@ class LengthMap {
     /// Between two even steps of the parameter.
     struct Piece {
         double begin = 0, width = 0; // of the distance
-        double mean = 0;             // steps of the parameter a unit of distance
-        double first = 0, last = 0;  // the same at its ends, at most so much more that the parameter grows everywhere
+        double mean = 0;             // parameter a unit of distance
+        double first = 0, last = 0;  // the same at both ends, so low that the parameter grows everywhere
         bool isSmooth = false;       // its share is a polynomial of the fifth degree
     };
     LengthMap(Measured measured, bool isSmooth);

@@ -94,7 +94,7 @@ std::optional<double> MotionSystem::Impl::triggerTime(const Move& move, const Pa
 /// Whether the next event remains the same until it happens or something is ordered: one that the arm's own path alone decides.
 bool MotionSystem::Impl::keepsNextEvent() const {
     return spans.size() == 1 && !isCoasting && !isStepping && detour == nullptr && !modifiers.areActive() &&
-           !modifiers.unreported && !path().isShared();
+           !modifiers.unreported && path().companionCount() == 0;
 }
 
 std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {

@@ -267,7 +267,9 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
         const double place = course.plannedAt(moment).s;
         samples[k % samples.size()] = {place, route.at(place).joints};
         if (k < kLast) continue;
-        const auto at = [&](std::size_t i) -> const Sample& { return samples[(k - kLast + i) % samples.size()]; };
+        const auto at = [&](std::size_t i) -> const Sample& {
+            return samples[(k - kLast + i) % samples.size()];
+        };
         const Use use = useAt(route, {&at(0).axes, &at(kPhases).axes, &at(2 * kPhases).axes, &at(kLast).axes},
                               at(kPhases).place);
         if (use.acceleration <= kAllowed && use.jerk <= kAllowedJerk) continue;
