@@ -170,8 +170,7 @@ void Companions::tighten(const Route& leader, const RouteStretch& stretch, Stret
             limits.bendSquare = std::min(limits.bendSquare, l.bendSquare);
             limits.gain = std::min(limits.gain, l.gain);
             limits.drop = std::min(limits.drop, l.drop);
-            limits.more.insert(limits.more.end(), l.rows.begin(),
-                               l.rows.begin() + static_cast<std::ptrdiff_t>(l.rowCount));
+            limits.more.push_back(l.rows);
         }
     }
 }

@@ -43,7 +43,7 @@ void Course::dropLongWindow(double time) {
 }
 
 void Course::push(const Knot& knot) {
-    const Integrals there = integralsAt(knot.t); // with the acceleration of the last knot
+    const Integrals there = integralsOn(knots_.back(), knot.t); // with the acceleration of the last knot
     knots_.push_back(knot);
     knots_.back().once = there.once;
     knots_.back().twice = there.twice;
@@ -159,11 +159,13 @@ void Course::slowBy(double factor) {
     }
 }
 
-void Course::forgetBefore(double time) {
+bool Course::forgetBefore(double time) {
+    const bool wasContinued = before_ != nullptr;
     if (time >= from_) before_ = nullptr;
     const double needed = time - longWindow_ - shortWindow_;
     constexpr std::size_t kWorthwhile = 256;
-    if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed) return;
+    if (knots_.size() <= kWorthwhile || knots_[kWorthwhile].t > needed)
+        return wasContinued && before_ == nullptr;
     std::size_t spare = kWorthwhile;
     while (spare + 1 < knots_.size() && knots_[spare + 1].t <= needed)
         ++spare;
@@ -181,6 +183,7 @@ void Course::forgetBefore(double time) {
         knots_[i].twice =
             from.twice + t * (from.once + t * (from.s / 2 + t * (from.v / 6 + t * from.a / 24)));
     }
+    return true;
 }
 
 const Course::Knot& Course::knotAt(double time) const {
@@ -190,7 +193,10 @@ const Course::Knot& Course::knotAt(double time) const {
 }
 
 Course::Integrals Course::integralsAt(double time) const {
-    const Knot& from = knotAt(time);
+    return integralsOn(knotAt(time), time);
+}
+
+Course::Integrals Course::integralsOn(const Knot& from, double time) {
     const double t = time - from.t; // below 0 before the first knot, where the arm rests
     if (t < 0) {
         return {from.s, from.once + t * from.s, from.twice + t * (from.once + t * from.s / 2), 0};

@@ -52,8 +52,8 @@ class Course {
     void shift(double seconds);
     /// Makes the whole exact plan take that many times as long.
     void slowBy(double factor);
-    /// Forgets what no question about `time` or later needs.
-    void forgetBefore(double time);
+    /// Forgets what no question about `time` or later needs. True if answers may be rounded differently from now on.
+    bool forgetBefore(double time);
 
     /// The plan, before it is averaged.
     CourseState plannedAt(double time) const;
@@ -86,6 +86,7 @@ class Course {
     static CourseState stateOn(const Knot& knot, double seconds);
     static double timeOn(const Knot& knot, double way, double most);
     Integrals integralsAt(double time) const;
+    static Integrals integralsOn(const Knot& from, double time);
     void push(const Knot& knot);
 
     std::vector<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0

@@ -44,9 +44,11 @@ class Follower final : public Trajectory {
     double backEnd() const override { return leader_->backEnd(); }
     void finishBack(double now) override { leader_->finishBack(now); }
     void standAt(double now, const PathPlace& place) override { leader_->standAt(now, leading(place)); }
-    void forgetBefore(double time, const LegRef& leg) override {
+    std::size_t companionCount() const override { return leader_->companionCount(); }
+    bool forgetBefore(double time, const LegRef& leg) override {
         oldestTime_ = time;
         oldest_ = leg;
+        return false;
     }
     const Trajectory* leader() const { return leader_.get(); }
 

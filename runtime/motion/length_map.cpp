@@ -30,44 +30,52 @@ std::vector<double> bendsOf(const std::vector<double>& rates, const std::vector<
 
 } // namespace
 
-LengthMap LengthMap::measured(const std::function<double(double)>& rate, int pieces, bool isSmooth) {
-    LengthMap map;
-    const auto count = static_cast<std::size_t>(pieces);
-    const double step = 1.0 / pieces;
-    double largest = 0;
-    std::vector<double> middles(count);
-    map.rates_.resize(count + 1);
-    for (std::size_t i = 0; i <= count; ++i) {
-        map.rates_[i] = rate(static_cast<double>(i) * step);
-        if (i < count) middles[i] = rate((static_cast<double>(i) + 0.5) * step);
-        largest = std::max({largest, map.rates_[i], i < count ? middles[i] : 0});
+double LengthMap::Measured::largest() const {
+    return std::max(*std::max_element(rates.begin(), rates.end()),
+                    *std::max_element(middles.begin(), middles.end()));
+}
+
+/// A cubic follows moderate changes only; near a reversal the rate changes fast.
+bool LengthMap::Measured::changesLittle(bool isSmooth) const {
+    const double moderate = isSmooth ? 1.02 : 1.15;
+    const double little = 0.02 * largest();
+    for (std::size_t i = 0; i + 1 < rates.size(); ++i) {
+        const auto [low, high] = std::minmax(rates[i], rates[i + 1]);
+        if (high > moderate * low && high > little) return false;
     }
-    // A cubic follows moderate changes only; near a reversal the rate changes fast.
-    const double kModerate = isSmooth ? 1.02 : 1.15;
-    constexpr int kMostPieces = 2000;
-    for (std::size_t i = 0; i < count && 4 * pieces <= kMostPieces; ++i) {
-        const auto [low, high] = std::minmax(map.rates_[i], map.rates_[i + 1]);
-        if (high > kModerate * low && high > 0.02 * largest) return measured(rate, 4 * pieces, isSmooth);
-    }
+    return true;
+}
+
+LengthMap::LengthMap(Measured measured, bool isSmooth)
+    : step_(1.0 / static_cast<double>(measured.middles.size())) {
+    auto& [rates, middles] = measured;
     // The map must stay invertible where the curve stops for a moment.
-    const double least = 1e-3 * largest;
-    for (double& r : map.rates_)
+    const double least = 1e-3 * measured.largest();
+    for (double& r : rates)
         r = std::max(r, least);
-    if (isSmooth) map.bends_ = bendsOf(map.rates_, middles, least);
-    map.distances_.resize(count + 1);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double mean = (map.rates_[i] + 4 * std::max(middles[i], least) + map.rates_[i + 1]) / 6;
-        map.distances_[i + 1] = map.distances_[i] + mean * step;
+    if (isSmooth) bends_ = bendsOf(rates, middles, least);
+    pieces_.resize(middles.size());
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const double mean = (rates[i] + 4 * std::max(middles[i], least) + rates[i + 1]) / 6;
+        const double end = length_ + mean * step_;
+        Piece& piece = pieces_[i];
+        piece.begin = length_;
+        piece.width = end - length_;
+        piece.mean = step_ / piece.width;
+        constexpr double kSteep = 1.5;
+        piece.isSmooth = isSmooth && std::max(1 / rates[i], 1 / rates[i + 1]) < kSteep * piece.mean;
+        piece.first = std::min(1 / rates[i], 2.9 * piece.mean);
+        piece.last = std::min(1 / rates[i + 1], 2.9 * piece.mean);
+        length_ = end;
     }
-    map.length_ = map.distances_.back();
-    return map;
+    if (isSmooth) rates_ = std::move(rates);
 }
 
 /// Polynomial of the fifth degree with the exact first and second derivatives at both ends of a piece, as a share of it;
 /// `x`: share of its length.
 double LengthMap::smoothShare(std::size_t piece, double x) const {
-    const double pieces = static_cast<double>(distances_.size() - 1);
-    const double width = distances_[piece + 1] - distances_[piece];
+    const auto pieces = static_cast<double>(pieces_.size());
+    const double width = pieces_[piece].width;
     const auto slope = [&](std::size_t i) { return width * pieces / rates_[i]; };
     const auto bend = [&](std::size_t i) {
         const double square = width / rates_[i];
@@ -87,33 +95,31 @@ double LengthMap::smoothShare(std::size_t piece, double x) const {
 double LengthMap::parameterAt(double distance) const {
     if (!(distance > 0) || !(length_ > 0)) return 0;
     if (distance >= length_) return 1;
-    if (distances_.empty()) return distance / length_;
-    const auto after = std::upper_bound(distances_.begin(), distances_.end(), distance);
-    const auto i = static_cast<std::size_t>(after - distances_.begin()) - 1;
-    const double step = 1.0 / static_cast<double>(distances_.size() - 1);
-    const double width = distances_[i + 1] - distances_[i];
-    const double x = (distance - distances_[i]) / width;
+    if (pieces_.empty()) return distance / length_;
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
+                                        [](double value, const Piece& p) { return value < p.begin; });
+    const Piece& piece = *(after - 1);
+    const auto i = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+    const double x = (distance - piece.begin) / piece.width;
     // Cubic with the exact slopes at both ends, where these are moderate enough to keep it growing.
-    const double mean = step / width;
-    constexpr double kSteep = 1.5;
-    if (!bends_.empty() && std::max(1 / rates_[i], 1 / rates_[i + 1]) < kSteep * mean)
-        return (static_cast<double>(i) + smoothShare(i, x)) * step;
-    const double left = std::min(1 / rates_[i], 2.9 * mean);
-    const double right = std::min(1 / rates_[i + 1], 2.9 * mean);
+    if (piece.isSmooth) return (static_cast<double>(i) + smoothShare(i, x)) * step_;
     const double rise = x * x * (3 - 2 * x);
-    const double share = rise + ((x - 1) * (x - 1) * x * left + x * x * (x - 1) * right) / mean;
-    return (static_cast<double>(i) + share) * step;
+    const double share =
+        rise + ((x - 1) * (x - 1) * x * piece.first + x * x * (x - 1) * piece.last) / piece.mean;
+    return (static_cast<double>(i) + share) * step_;
 }
 
 double LengthMap::distanceAt(double parameter) const {
     if (!(parameter > 0)) return 0;
     if (parameter >= 1) return length_;
-    if (distances_.empty()) return parameter * length_;
+    if (pieces_.empty()) return parameter * length_;
     double low = 0;
     double high = length_;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
+        const bool isLast = middle == low || middle == high;
         (parameterAt(middle) < parameter ? low : high) = middle;
+        if (isLast) break;
     }
     return 0.5 * (low + high);
 }

@@ -91,7 +91,19 @@ std::optional<double> MotionSystem::Impl::triggerTime(const Move& move, const Pa
     return time;
 }
 
+/// Whether the next event remains the same until it happens or something is ordered: one that the arm's own path alone decides.
+bool MotionSystem::Impl::keepsNextEvent() const {
+    return spans.size() == 1 && !isCoasting && !isStepping && detour == nullptr && !modifiers.areActive() &&
+           !modifiers.unreported && path().companionCount() == 0;
+}
+
 std::optional<TimeNs> MotionSystem::Impl::nextEvent() const {
+    if (!keepsNextEvent()) return findNextEvent();
+    if (!known.isKnown) known = {true, findNextEvent()};
+    return known.time;
+}
+
+std::optional<TimeNs> MotionSystem::Impl::findNextEvent() const {
     std::optional<TimeNs> next;
     const auto considerAt = [&](TimeNs time) {
         if (!next || time < *next) next = std::max(time, now);
@@ -186,6 +198,7 @@ bool MotionSystem::Impl::handleMoves() {
 }
 
 void MotionSystem::Impl::handleEventsNow() {
+    forgetNextEvent();
     reportOutOfReach();
     if (isCoasting) {
         isCoasting = false;

@@ -176,7 +176,7 @@ void MotionSystem::addModifier(std::shared_ptr<PathModifier> modifier) {
 }
 
 void MotionSystem::advanceModifiers(TimeNs time) {
-    impl_->advanceModifiers(time);
+    impl_.keepingNextEvent().advanceModifiers(time);
 }
 
 const std::optional<MotionError>& MotionSystem::outOfReachError() const {

@@ -333,7 +333,7 @@ void MotionSystem::Impl::forgetBefore(TimeNs time) {
     if (path().isEmpty() || spans.front().path != level.path) return;
     const Move* oldest = level.finished.empty() ? front() : level.finished.front().get();
     if (oldest == nullptr) return;
-    path().forgetBefore(toSeconds(time), oldest->leg);
+    if (path().forgetBefore(toSeconds(time), oldest->leg)) forgetNextEvent();
 }
 
 } // namespace motion

@@ -36,6 +36,16 @@ MotionSystem::MotionSystem(robot::RobotModel model, MotionOptions options) : imp
     impl_->follow(impl_->level.path, 0);
 }
 
+MotionSystem::Hidden::Hidden(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MotionSystem::Hidden::~Hidden() = default;
+MotionSystem::Hidden::Hidden(Hidden&&) noexcept = default;
+MotionSystem::Hidden& MotionSystem::Hidden::operator=(Hidden&&) noexcept = default;
+
+MotionSystem::Impl* MotionSystem::Hidden::operator->() {
+    impl_->forgetNextEvent();
+    return impl_.get();
+}
+
 MotionSystem::~MotionSystem() = default;
 MotionSystem::MotionSystem(MotionSystem&&) noexcept = default;
 MotionSystem& MotionSystem::operator=(MotionSystem&&) noexcept = default;
@@ -339,7 +349,7 @@ double MotionSystem::speedOverride() const {
 }
 
 void MotionSystem::advanceTo(TimeNs time) {
-    Impl& s = *impl_;
+    Impl& s = impl_.keepingNextEvent();
     if (time < s.now) return;
     s.forgetBefore(s.now);
     for (;;) {
@@ -360,7 +370,7 @@ std::optional<TimeNs> MotionSystem::nextEventTime() const {
     return impl_->nextEvent();
 }
 std::vector<MotionEvent> MotionSystem::takeEvents() {
-    return std::exchange(impl_->events, {});
+    return std::exchange(impl_.keepingNextEvent().events, {});
 }
 
 bool MotionSystem::isIdle() const {

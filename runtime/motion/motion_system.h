@@ -261,7 +261,23 @@ class MotionSystem {
 
   private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    /// The hidden part. Access that may change it forgets the next event, which is found again when it is asked for.
+    class Hidden {
+      public:
+        explicit Hidden(std::unique_ptr<Impl> impl);
+        ~Hidden();
+        Hidden(Hidden&&) noexcept;
+        Hidden& operator=(Hidden&&) noexcept;
+        const Impl& operator*() const { return *impl_; }
+        const Impl* operator->() const { return impl_.get(); }
+        Impl& operator*() { return *operator->(); }
+        Impl* operator->();
+        Impl& keepingNextEvent() { return *impl_; }
+
+      private:
+        std::unique_ptr<Impl> impl_;
+    };
+    Hidden impl_;
 };
 
 } // namespace motion

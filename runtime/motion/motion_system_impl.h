@@ -92,6 +92,13 @@ struct MotionSystem::Impl {
     std::deque<std::pair<MoveId, MoveId>> cleared; // first and last of each range, the most recent
     std::deque<std::pair<MoveId, TimeNs>> reached; // the most recent
 
+    /// nextEvent() as it was found last, while nothing has changed since and nothing has happened.
+    struct KnownEvent {
+        bool isKnown = false;
+        std::optional<TimeNs> time;
+    };
+    mutable KnownEvent known;
+
     double seconds() const { return toSeconds(now); }
     /// The same frames on the base of this robot.
     FrameSetup based(FrameSetup frames) const {
@@ -165,7 +172,11 @@ struct MotionSystem::Impl {
     std::optional<double> reachTime(const Move& move) const;
     std::optional<double> releaseTime(const Move& move) const;
     std::optional<double> triggerTime(const Move& move, const PathTrigger& wanted) const;
+    /// When something happens next, not before now; nothing when that depends on an order.
     std::optional<TimeNs> nextEvent() const;
+    std::optional<TimeNs> findNextEvent() const;
+    bool keepsNextEvent() const;
+    void forgetNextEvent() { known.isKnown = false; }
     bool isDue(std::optional<double> time) const { return time && toNs(*time) <= now; }
     void handleEventsNow();
     bool handleMoves();

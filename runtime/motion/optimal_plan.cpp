@@ -61,14 +61,13 @@ void OptimalPlan::measure(const Route& route, std::size_t from) {
 }
 
 void OptimalPlan::forget(std::size_t stretches) {
-    const auto count = static_cast<std::ptrdiff_t>(stretches);
-    cells_.erase(cells_.begin(), cells_.begin() + count);
-    begins_.erase(begins_.begin(), begins_.begin() + count);
+    cells_.forget(stretches);
+    begins_.forget(stretches);
 }
 
 std::size_t OptimalPlan::cellAt(double place) const {
-    const auto after = std::upper_bound(begins_.begin(), begins_.end(), place);
-    return after == begins_.begin() ? 0 : static_cast<std::size_t>(after - begins_.begin()) - 1;
+    const std::size_t begun = begins_.countUpTo(place, [](double begin) { return begin; });
+    return begun == 0 ? 0 : begun - 1;
 }
 
 std::vector<ProfileCell> OptimalPlan::pathBetween(double from, double to, double share) const {
@@ -209,19 +208,20 @@ bool OptimalPlan::solveFrom(Course& course, const Route& route, double time, con
 }
 
 /// Largest shares of the limits that the axes take, by four samples of the course a tick apart.
-OptimalPlan::Use OptimalPlan::useAt(const Route& route, const std::array<Joints, 4>& axes,
+OptimalPlan::Use OptimalPlan::useAt(const Route& route, const std::array<const Joints*, 4>& axes,
                                     double place) const {
-    Joints most = axes[1];
-    limits_.accelerations->limitsAt(axes[1], most);
+    const Joints &first = *axes[0], &here = *axes[1], &next = *axes[2], &last = *axes[3];
+    Joints most = here;
+    limits_.accelerations->limitsAt(here, most);
     const MoveLimits& limits = route.leg(route.legAt(place)).limits;
     Use use;
     for (std::size_t i = 0; i < most.size(); ++i) {
-        const double bend = axes[2][i] - 2 * axes[1][i] + axes[0][i];
-        const double next = axes[3][i] - 2 * axes[2][i] + axes[1][i];
+        const double bend = next[i] - 2 * here[i] + first[i];
+        const double nextBend = last[i] - 2 * next[i] + here[i];
         const double acceleration = limits.accelerationShare[i] * most[i] * kTick * kTick;
         const double jerk = limits.rampShare * limits_.jerk[i] * kTick * kTick * kTick;
         use.acceleration = std::max(use.acceleration, std::abs(bend) / acceleration);
-        use.jerk = std::max(use.jerk, std::abs(next - bend) / jerk);
+        use.jerk = std::max(use.jerk, std::abs(nextBend - bend) / jerk);
     }
     return use;
 }
@@ -252,27 +252,31 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
     constexpr std::size_t kPhases = 2; // a reader's ticks may lie between those of the check
     constexpr double kStep = kTick / kPhases;
     constexpr std::size_t kLast = 3 * kPhases;
-    std::array<Joints, kLast + 1> axes;
-    std::array<double, kLast + 1> places{};
+    struct Sample {
+        double place = 0;
+        Joints axes;
+    };
+    std::array<Sample, kLast + 1> samples; // the latest ones, each overwrites the oldest
     std::vector<Use> uses(cells_.size());
     std::vector<double> speeds(cells_.size(), 0);
     bool isExceeded = false;
     const auto count = static_cast<std::size_t>((course.plannedEnd() - time) / kStep) + 2 * kLast;
     for (std::size_t k = 0; k < count; ++k) {
-        std::rotate(axes.begin(), axes.begin() + 1, axes.end());
-        std::rotate(places.begin(), places.begin() + 1, places.end());
         // The ticks before are those of the plan before, up to the moment from which on it is another.
         const double moment = time + (static_cast<double>(k) - 2 * kPhases) * kStep;
-        places[kLast] = course.plannedAt(moment).s;
-        axes[kLast] = route.at(places[kLast]).joints;
+        const double place = course.plannedAt(moment).s;
+        samples[k % samples.size()] = {place, route.at(place).joints};
         if (k < kLast) continue;
-        const Use use =
-            useAt(route, {axes[0], axes[kPhases], axes[2 * kPhases], axes[kLast]}, places[kPhases]);
+        const auto at = [&](std::size_t i) -> const Sample& {
+            return samples[(k - kLast + i) % samples.size()];
+        };
+        const Use use = useAt(route, {&at(0).axes, &at(kPhases).axes, &at(2 * kPhases).axes, &at(kLast).axes},
+                              at(kPhases).place);
         if (use.acceleration <= kAllowed && use.jerk <= kAllowedJerk) continue;
         isExceeded = true;
-        const double speed = (places[kLast] - places[0]) / (3 * kTick * share);
-        const std::size_t last = cellAt(places[kLast]);
-        for (std::size_t i = cellAt(places[0]); i <= last; ++i) {
+        const double speed = (place - at(0).place) / (3 * kTick * share);
+        const std::size_t last = cellAt(place);
+        for (std::size_t i = cellAt(at(0).place); i <= last; ++i) {
             uses[i].acceleration = std::max(uses[i].acceleration, use.acceleration);
             uses[i].jerk = std::max(uses[i].jerk, use.jerk);
             speeds[i] = std::max(speeds[i], speed);

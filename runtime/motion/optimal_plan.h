@@ -3,10 +3,10 @@
 
 #include "runtime/motion/course.h"
 #include "runtime/motion/profile_grid.h"
+#include "runtime/motion/queue.h"
 #include "runtime/motion/route_profile.h"
 #include "runtime/motion/velocity_ramp.h"
 
-#include <deque>
 #include <optional>
 
 namespace motion {
@@ -57,14 +57,14 @@ class OptimalPlan {
     struct Use {
         double acceleration = 0, jerk = 0;
     };
-    Use useAt(const Route& route, const std::array<Joints, 4>& axes, double place) const;
+    Use useAt(const Route& route, const std::array<const Joints*, 4>& axes, double place) const;
     static void tighten(ProfileCell& cell, const Use& use, double speed, int round);
     Course stopped(const Course& course, double now) const;
     static void follow(Course& course, const Slowing& slowing);
 
     ArmLimits limits_;
-    std::deque<ProfileCell> cells_; // of each stretch, at full override
-    std::deque<double> begins_;
+    Queue<ProfileCell> cells_; // of each stretch, at full override
+    Queue<double> begins_;
     double share_ = 1;
     double endRampShare_ = 1;
     bool keepsTicks_ = false; // the plan that was found last keeps all limits at each tick

@@ -422,12 +422,15 @@ void MotionPath::setFrames(const FrameSetup& frames) {
     const Pose base = robot::inverse(frames_.baseFrame);
     beforeTarget_ = base * (frames_.tool.robotHeld ? object : frames_.tool.tframe);
     afterTarget_ = robot::inverse(frames_.tool.robotHeld ? frames_.tool.tframe : object);
+    isBeforeTarget_ = !robot::isIdentity(beforeTarget_);
+    isAfterTarget_ = !robot::isIdentity(afterTarget_);
 }
 
 Pose MotionPath::flangeOf(const Pose& target, const ExternalAxes& axes, const Pose* user) const {
     if (user != nullptr || frames_.isMoved()) return frames_.toFlange(target, axes, user);
-    return chained(chained(beforeTarget_, frames_.tool.robotHeld ? target : robot::inverse(target)),
-                   afterTarget_);
+    const Pose held = frames_.tool.robotHeld ? target : robot::inverse(target);
+    const Pose placed = isBeforeTarget_ ? chained(beforeTarget_, held) : held;
+    return isAfterTarget_ ? chained(placed, afterTarget_) : placed;
 }
 
 Pose MotionPath::flangeFor(const Pose& target, double s) const {

@@ -156,10 +156,13 @@ void ProfileSolver::tightenCaps(const std::vector<ProfileCell>& cells) {
     };
     for (std::size_t i = 1; i <= cells_; ++i) {
         const double before = i > 1 || startsAtRest_ ? i > 1 ? cap_[i - 1] : 0 : coefficient_[1];
-        cap_[i] = std::min(cap_[i], before + gain(i - 1) + (i > 1 ? 0.5 : 4) * gain(i - 1));
+        const double gained = gain(i - 1);
+        cap_[i] = std::min(cap_[i], before + gained + (i > 1 ? 0.5 : 4) * gained);
     }
-    for (std::size_t i = cells_; i >= 1; --i)
-        cap_[i] = std::min(cap_[i], (i < cells_ ? cap_[i + 1] : 4 * gain(i - 1)) + 1.5 * gain(i - 1));
+    for (std::size_t i = cells_; i >= 1; --i) {
+        const double gained = gain(i - 1);
+        cap_[i] = std::min(cap_[i], (i < cells_ ? cap_[i + 1] : 4 * gained) + 1.5 * gained);
+    }
 }
 
 /// A speed that nearly keeps accelerations and jerks.

@@ -57,8 +57,7 @@ std::optional<double> Route::append(Leg leg, double fixedUpTo) {
     if (legs_.empty()) {
         leg.begin = leg.cutStart = leg.cutEnd = 0;
         legs_.push_back(std::move(leg));
-        corners_.emplace_back();
-        corners_.back().begin = legs_.back().end();
+        corners_.grow().begin = legs_.back().end();
         layStretches(0);
         return 0;
     }
@@ -73,21 +72,20 @@ std::optional<double> Route::append(Leg leg, double fixedUpTo) {
     const bool betweenJoints = !legs_.back().path->isCartesian() && !leg.path->isCartesian();
 
     legs_.push_back(std::move(leg));
-    corners_.emplace_back();
+    corners_.grow();
     for (const CornerKind kind : {CornerKind::Space, CornerKind::Joint}) {
         if (kind == CornerKind::Space && (!inSpace || betweenJoints)) continue;
         makeCorner(kind, first, second, fixedUpTo);
         const double changed = zoneBegin(corners_[corners_.size() - 2]);
-        std::vector<RouteStretch>& replaced = replacedStretches_;
-        replaced.clear();
-        while (!stretches_.empty() && stretches_.back().end > changed + kNothing) {
-            replaced.push_back(stretches_.back());
-            stretches_.pop_back();
-        }
         keptStretches_ = stretches_.size();
-        if (layStretches(stretches_.empty() ? changed : stretches_.back().end)) return changed;
+        while (keptStretches_ > 0 && stretches_[keptStretches_ - 1].end > changed + kNothing)
+            --keptStretches_;
+        replacedStretches_.clear();
+        for (std::size_t i = keptStretches_; i < stretches_.size(); ++i)
+            replacedStretches_.push_back(stretches_[i]);
         stretches_.resize(keptStretches_);
-        stretches_.insert(stretches_.end(), replaced.rbegin(), replaced.rend());
+        if (layStretches(stretches_.empty() ? changed : stretches_.back().end)) return changed;
+        restoreStretches();
     }
     dropLastLeg();
     return {};
@@ -101,9 +99,14 @@ void Route::dropLastLeg() {
     corners_.back().begin = legs_.back().end();
 }
 
-void Route::undoAppend() {
+void Route::restoreStretches() {
     stretches_.resize(keptStretches_);
-    stretches_.insert(stretches_.end(), replacedStretches_.rbegin(), replacedStretches_.rend());
+    for (const RouteStretch& stretch : replacedStretches_)
+        stretches_.push_back(stretch);
+}
+
+void Route::undoAppend() {
+    restoreStretches();
     replacedStretches_.clear();
     dropLastLeg();
 }
@@ -203,10 +206,8 @@ Pose Route::flangeFor(const MotionPath& path, const Pose& target, const External
 std::size_t Route::ownLeg(double place) const {
     if (!legs_.empty() && place >= legs_.back().begin)
         return legCount() - 1; // mostly of a leg that is appended
-    const auto after = std::upper_bound(legs_.begin(), legs_.end(), place,
-                                        [](double value, const Leg& l) { return value < l.begin; });
-    const auto index = after == legs_.begin() ? 0 : static_cast<std::size_t>(after - legs_.begin()) - 1;
-    return firstLeg_ + index;
+    const std::size_t begun = legs_.countUpTo(place, [](const Leg& l) { return l.begin; });
+    return firstLeg_ + (begun == 0 ? 0 : begun - 1);
 }
 
 RoutePoint Route::at(double place, const Joints* near) const {
@@ -348,23 +349,22 @@ std::size_t Route::legBy(std::size_t own, double place) const {
 }
 
 std::size_t Route::stretchAt(double place) const {
-    const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), place,
-                                        [](double value, const RouteStretch& s) { return value < s.begin; });
-    return after == stretches_.begin() ? 0 : static_cast<std::size_t>(after - stretches_.begin()) - 1;
+    const std::size_t begun = stretches_.countUpTo(place, [](const RouteStretch& s) { return s.begin; });
+    return begun == 0 ? 0 : begun - 1;
 }
 
 std::size_t Route::forgetBefore(double place) {
-    std::size_t forgotten = 0;
-    while (stretches_.size() > 1 && stretches_.front().end <= place) {
-        stretches_.pop_front();
-        ++forgotten;
-    }
-    while (legs_.size() > 2 && legs_[1].begin <= place) { // of the leg before, the corner between is needed
-        legs_.pop_front();
-        corners_.pop_front();
-        ++firstLeg_;
-    }
-    return forgotten;
+    std::size_t stretches = 0;
+    while (stretches + 1 < stretches_.size() && stretches_[stretches].end <= place)
+        ++stretches;
+    stretches_.forget(stretches);
+    std::size_t legs = 0; // of the leg before, the corner between is needed
+    while (legs + 2 < legs_.size() && legs_[legs + 1].begin <= place)
+        ++legs;
+    legs_.forget(legs);
+    corners_.forget(legs);
+    firstLeg_ += legs;
+    return stretches;
 }
 
 } // namespace motion

@@ -6,9 +6,8 @@
 #include "runtime/motion/corner.h"
 #include "runtime/motion/move_limits.h"
 #include "runtime/motion/path.h"
-#include "runtime/motion/stretch_queue.h"
+#include "runtime/motion/queue.h"
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -102,7 +101,7 @@ class Route {
     Pose tcpOf(const FrameSetup& frames, const RoutePoint& point, double place) const;
     /// mm of TCP path for a mm of route, where the curve is one of the TCP; nothing where axes are interpolated.
     std::optional<double> curveRateAt(double place) const;
-    const StretchQueue<RouteStretch>& stretches() const { return stretches_; }
+    const Queue<RouteStretch>& stretches() const { return stretches_; }
     /// Index of the stretch that contains the place.
     std::size_t stretchAt(double place) const;
     /// Forgets stretches and legs that end before this place; how many stretches.
@@ -141,6 +140,7 @@ class Route {
     static void blendExternal(Corner& corner, const Leg& a, const Leg& b, double before, double after);
     void placeLastCorner();
     void dropLastLeg();
+    void restoreStretches();
     bool layStretches(double from);
     void addBends(const Corner& corner, double from, double to, std::vector<double>& places) const;
     void addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const;
@@ -155,11 +155,11 @@ class Route {
     bool isSmooth_ = false;
     std::function<Pose(double)> carrier_;
     std::size_t firstLeg_ = 0;
-    std::deque<Leg> legs_;
-    std::deque<Corner> corners_; // at the end of each leg
-    StretchQueue<RouteStretch> stretches_;
+    Queue<Leg> legs_;
+    Queue<Corner> corners_; // at the end of each leg
+    Queue<RouteStretch> stretches_;
     std::size_t keptStretches_ = 0;               // at the last append()
-    std::vector<RouteStretch> replacedStretches_; // by it, the last one first
+    std::vector<RouteStretch> replacedStretches_; // by it
 };
 
 } // namespace motion

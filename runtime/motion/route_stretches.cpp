@@ -145,11 +145,11 @@ bool Route::layStretches(double from) {
         if (gap < least) continue;
         const auto parts = static_cast<int>(std::ceil(gap / kLongestStretch));
         for (int k = 0; k < parts; ++k) {
-            RouteStretch stretch;
-            stretch.begin = begin + gap * k / parts;
-            stretch.end = k + 1 == parts ? borders[i] : begin + gap * (k + 1) / parts;
             const bool isFirst = stretches_.empty();
             const Joints seed = isFirst ? legs_.front().path->start().robax : stretches_.back().middle.joints;
+            RouteStretch& stretch = stretches_.grow();
+            stretch.begin = begin + gap * k / parts;
+            stretch.end = k + 1 == parts ? borders[i] : begin + gap * (k + 1) / parts;
             const double middle = 0.5 * (stretch.begin + stretch.end);
             const std::size_t own = ownLeg(middle);
             const bool isGood = measure(stretch, own, seed);
@@ -158,9 +158,8 @@ bool Route::layStretches(double from) {
             // The first stretch after a zone, too: there the legs' own axes count again, perhaps a turn further.
             if (isFirst || !(isInZone || wasInZone))
                 branch.reset();
-            else if (!joins(stretches_.back(), stretch, branch))
+            else if (!joins(stretches_[stretches_.size() - 2], stretch, branch))
                 return false;
-            stretches_.push_back(stretch);
             wasInZone = isInZone;
         }
         begin = borders[i];

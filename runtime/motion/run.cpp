@@ -10,37 +10,6 @@ namespace motion {
 
 namespace {
 
-/// Squares of the speed at one end of a stretch that go with a square at the other end.
-struct Interval {
-    double low = -kUnlimited, high = kUnlimited; // the low one may be below 0: a stop on the way
-};
-
-/// `towardsEnd`: from the beginning of the stretch to its end, else from the end to the beginning. On a stretch with squares
-/// x0 and x1 at its ends each row accelerates by first * (x1 - x0) / (2 width) + second * (x0 + x1) / 2.
-Interval reachableFrom(double square, const StretchLimits& limits, double width, bool towardsEnd) {
-    Interval result;
-    const double gain = towardsEnd ? limits.gain : limits.drop;
-    const double drop = towardsEnd ? limits.drop : limits.gain;
-    result.high = square + 2 * width * gain;
-    result.low = square - 2 * width * drop;
-    const double sign = towardsEnd ? 1 : -1;
-    const auto obey = [&](const AccelerationRow& row) {
-        const double change = sign * row.first / (2 * width);
-        const double there = change + 0.5 * row.second;
-        const double here = (0.5 * row.second - change) * square;
-        if (std::abs(there) < 1e-15) return;
-        const double a = (row.most - here) / there;
-        const double b = (-row.most - here) / there;
-        result.high = std::min(result.high, std::max(a, b));
-        result.low = std::max(result.low, std::min(a, b));
-    };
-    for (std::size_t i = 0; i < limits.rowCount; ++i)
-        obey(limits.rows[i]);
-    for (const AccelerationRow& row : limits.more)
-        obey(row);
-    return result;
-}
-
 /// Squares of the speed on a stretch.
 struct StretchSpeeds {
     double first = 0, last = 0; ///< at its ends
@@ -70,7 +39,9 @@ void shapeStretch(Course& course, double from, double to, const StretchSpeeds& x
 
 Run::Run(const RunSettings& settings, double start)
     : settings_(settings), route_(settings.planner == Planner::Optimal), course_(newCourse(start, 0)),
-      start_(start), share_(settings.speedShare), reachable_{0}, planned_{0} {
+      start_(start), share_(settings.speedShare) {
+    reachable_.push_back(0);
+    planned_.push_back(0);
     if (settings.planner == Planner::Optimal)
         optimal_.emplace(ArmLimits{settings.accelerations, settings.jerk});
 }
@@ -172,9 +143,9 @@ std::size_t Run::limitStretches(std::size_t from) {
     limits_.resize(from);
     for (std::size_t k = from; k < stretches.size(); ++k) {
         const RouteStretch& s = stretches[k];
-        limits_.push_back(limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations));
-        if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, limits_.back());
-        StretchLimits& added = limits_.back();
+        StretchLimits& added = limits_.grow();
+        added = limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations);
+        if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, added);
         added.ownSpeed = added.speed;
         if (!s.isAxesCorner) added.axisSpeed = kUnlimited; // no dip that is widened
         if (s.isReversal) added.axisSpeed = std::min(added.axisSpeed, std::sqrt(added.bendSquare));
@@ -241,7 +212,7 @@ void Run::taperEnd() {
     taper_ = std::max(0.0, windows * (settings_.rampShare / share - 1));
     if (!(taper_ > 0)) return;
     const double width = limits_.back().width;
-    const double braking = reachableFrom(0, limits_.back(), width, false).high / (2 * width);
+    const double braking = limits_.back().reachFrom(0, width, false).high / (2 * width);
     taperJerk_ = std::min(braking, 1e6) / taper_;
 }
 
@@ -271,7 +242,7 @@ void Run::planBackward(std::size_t from) {
     for (std::size_t i = count; i-- > 0;) {
         double most = speedSquare(i);
         if (i > 0) most = std::min(most, speedSquare(i - 1));
-        most = std::min(most, reachableFrom(reachable_[i + 1], limits_[i], limits_[i].width, false).high);
+        most = std::min(most, limits_[i].reachFrom(reachable_[i + 1], limits_[i].width, false).high);
         most = std::max(std::min(most, taperSquare(nodePlace(i))), 0.0);
         if (i < known && reachable_[i] == most) break;
         reachable_[i] = most;
@@ -320,13 +291,13 @@ void Run::passStretch(std::size_t stretch, double from, double square) {
         return;
     }
     const double most = speedSquare(stretch);
-    const Interval reach = reachableFrom(square, limits, width, true);
+    const SquareRange reach = limits.reachFrom(square, width, true);
     double next = std::max(0.0, std::min({reach.high, reachable_[stretch + 1], most}));
     // The speed has been lowered meanwhile: as fast as braking allows.
     if (square > most && stretch + 1 < limits_.size()) next = std::max(next, std::min(reach.low, square));
     if (taper_ > 0 && to > route_.length() - taperWay() + kNothing && square > 0)
         return passTapered(stretch, from, square, next);
-    const double back = reachableFrom(next, limits, width, false).high;
+    const double back = limits.reachFrom(next, width, false).high;
     shapeStretch(course_, from, to, {square, next, most, reach.high, back});
     planned_[stretch + 1] = next;
 }
@@ -376,8 +347,8 @@ double Run::averagedSpeedFor(double wanted) {
     route_.leg(0).limits.pathSpeed = kUnlimited;
     limitStretches(0);
     std::vector<double> fastest;
-    for (const StretchLimits& limits : limits_)
-        fastest.push_back(limits.speed);
+    for (std::size_t i = 0; i < limits_.size(); ++i)
+        fastest.push_back(limits_[i].speed);
     const auto durationAt = [&](double speed) {
         for (std::size_t i = 0; i < limits_.size(); ++i)
             limits_[i].speed = std::min(fastest[i], speed);
@@ -412,10 +383,10 @@ void Run::passTapered(std::size_t stretch, double from, double square, double la
         const double next = to - (to - begin) * left;
         const double width = next - place;
         if (width < kNothing) continue;
-        const double gained = reachableFrom(square, limits, width, true).high;
+        const double gained = limits.reachFrom(square, width, true).high;
         const double most = part == 0 ? last : std::min({gained, taperSquare(next), speedSquare(stretch)});
         if (part == kParts) { // up to the place from which on it decreases
-            const double back = reachableFrom(most, limits, width, false).high;
+            const double back = limits.reachFrom(most, width, false).high;
             shapeStretch(course_, place, next, {square, most, speedSquare(stretch), gained, back});
         } else {
             course_.moveTo(next, std::sqrt(std::max(most, 0.0)));
@@ -467,7 +438,7 @@ template <class Step> void Run::brakeFrom(const CourseState& state, Step step) c
         const double to = nodePlace(i + 1);
         const double width = to - place;
         if (width < kNothing) continue;
-        const double slowest = std::min(reachableFrom(square, limits_[i], width, true).low, 0.999 * square);
+        const double slowest = std::min(limits_[i].reachFrom(square, width, true).low, 0.999 * square);
         if (slowest <= 0 || i + 1 == limits_.size()) {
             const double rest = slowest < 0 ? width * square / (square - slowest) : width;
             step(place + rest, 0.0);
@@ -559,15 +530,15 @@ Course Run::courseBack(double time, double from, double to, double mmPerSecond) 
     double square = 0;
     for (auto part = parts.rbegin(); part != parts.rend(); ++part) { // from the rest at the end
         part->square = square;
-        square = std::min(part->most, reachableFrom(square, limits_[part->stretch], part->width, true).high);
+        square = std::min(part->most, limits_[part->stretch].reachFrom(square, part->width, true).high);
     }
     Course course(time, 0, settings_.longWindow, settings_.shortWindow);
     square = 0;
     for (const Part& part : parts) {
         const StretchLimits& limits = limits_[part.stretch];
-        const double gained = reachableFrom(square, limits, part.width, false).high;
+        const double gained = limits.reachFrom(square, part.width, false).high;
         const double next = std::max(0.0, std::min({gained, part.most, part.square}));
-        const double before = reachableFrom(next, limits, part.width, true).high;
+        const double before = limits.reachFrom(next, part.width, true).high;
         const double begin = from - part.low - part.width;
         shapeStretch(course, begin, begin + part.width, {square, next, part.most, gained, before});
         square = next;
@@ -575,15 +546,19 @@ Course Run::courseBack(double time, double from, double to, double mmPerSecond) 
     return course;
 }
 
-void Run::forgetBefore(double time, double place) {
-    course_.forgetBefore(time);
-    const auto count = static_cast<std::ptrdiff_t>(route_.forgetBefore(place));
-    if (count == 0) return;
-    if (optimal_) return optimal_->forget(static_cast<std::size_t>(count));
-    limits_.erase(limits_.begin(), limits_.begin() + count);
-    reachable_.erase(reachable_.begin(), reachable_.begin() + count);
-    planned_.erase(planned_.begin(), planned_.begin() + count);
+bool Run::forgetBefore(double time, double place) {
+    const bool isRoundedAnew = course_.forgetBefore(time);
+    const std::size_t count = route_.forgetBefore(place);
+    if (count == 0) return isRoundedAnew;
+    if (optimal_) {
+        optimal_->forget(count);
+        return isRoundedAnew;
+    }
+    limits_.forget(count);
+    reachable_.forget(count);
+    planned_.forget(count);
     changed_ = limits_.size() + 1;
+    return isRoundedAnew;
 }
 
 } // namespace motion

@@ -70,7 +70,8 @@ class Run {
     /// Shifts the start; the run has not begun.
     void startAt(double time);
     bool isBraking() const { return isBraking_; } ///< the plan ends before the route does
-    void forgetBefore(double time, double place);
+    /// True if times of the course may be rounded differently from now on.
+    bool forgetBefore(double time, double place);
 
   private:
     Course newCourse(double time, double place) const;
@@ -102,13 +103,13 @@ class Run {
     bool isOpen_ = false;
     bool isBraking_ = false;
     mutable std::optional<double>
-        decision_;                       // decisionTime() or lastBraking(), found since the plan changed last
-    StretchQueue<StretchLimits> limits_; // of each stretch
-    std::deque<double> reachable_; // largest squares of speed at the beginnings of stretches, then at the end
-    std::deque<double> planned_;   // squares of the plan there
-    std::size_t changed_ = 0;      // nodes from this one on have a new reachable speed
-    double taper_ = 0;             // s, in which the braking for a stop point decreases besides the windows
-    double taperJerk_ = 0;         // mm/s^3, at which it does
+        decision_;                // decisionTime() or lastBraking(), found since the plan changed last
+    Queue<StretchLimits> limits_; // of each stretch
+    Queue<double> reachable_;     // largest squares of speed at the beginnings of stretches, then at the end
+    Queue<double> planned_;       // squares of the plan there
+    std::size_t changed_ = 0;     // nodes from this one on have a new reachable speed
+    double taper_ = 0;            // s, in which the braking for a stop point decreases besides the windows
+    double taperJerk_ = 0;        // mm/s^3, at which it does
 };
 
 } // namespace motion

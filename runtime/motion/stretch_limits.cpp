@@ -1,7 +1,5 @@
 #include "runtime/motion/stretch_limits.h"
 
-#include "runtime/motion/tolerances.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +14,46 @@ double atMost(double limit, double rate) {
     return size > 1e-12 ? limit / size : kUnlimited;
 }
 
+using Pair = double __attribute__((vector_size(16)));
+
+template <class Numbers> Pair pairAt(const Numbers& numbers, std::size_t i) {
+    return {numbers[i], numbers[i + 1]};
+}
+
 } // namespace
+
+/// On a stretch with squares x0 and x1 at its ends each row accelerates by first * (x1 - x0) / (2 width) + second * (x0 + x1) / 2.
+void AccelerationRows::narrow(SquareRange& range, double square, double width, bool towardsEnd) const {
+    constexpr double kLeast = 1e-15;
+    const double sign = towardsEnd ? 1 : -1;
+    Pair low = {range.low, range.low};
+    Pair high = {range.high, range.high};
+    for (std::size_t i = 0; i < count_; i += 2) {
+        const Pair second = pairAt(second_, i), most = pairAt(most_, i);
+        const Pair change = sign * pairAt(first_, i) / (2 * width);
+        const Pair there = change + 0.5 * second;
+        const Pair here = (0.5 * second - change) * square;
+        const Pair a = (most - here) / there;
+        const Pair b = (-most - here) / there;
+        const auto counts = (there >= kLeast) | (there <= -kLeast);
+        const Pair larger = counts ? (a < b ? b : a) : high;
+        const Pair smaller = counts ? (b < a ? b : a) : low;
+        high = larger < high ? larger : high;
+        low = low < smaller ? smaller : low;
+    }
+    range.low = std::max(low[0], low[1]);
+    range.high = std::min(high[0], high[1]);
+}
+
+SquareRange StretchLimits::reachFrom(double square, double partWidth, bool towardsEnd) const {
+    const double most = towardsEnd ? gain : drop;
+    const double least = towardsEnd ? drop : gain;
+    SquareRange result{square - 2 * partWidth * least, square + 2 * partWidth * most};
+    rows.narrow(result, square, partWidth, towardsEnd);
+    for (const AccelerationRows& other : more)
+        other.narrow(result, square, partWidth, towardsEnd);
+    return result;
+}
 
 StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
                        const robot::AccelerationMap& accelerationMap) {
@@ -29,7 +66,7 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     const auto add = [&](double first, double second, double acceleration) {
         if (std::abs(first) < 1e-12 && std::abs(second) < 1e-12) return;
         l.bendSquare = std::min(l.bendSquare, atMost(acceleration, second));
-        l.rows[l.rowCount++] = {first, second, acceleration};
+        l.rows.add(first, second, acceleration);
     };
     Joints accelerations = s.middle.joints;
     accelerationMap.limitsAt(s.middle.joints, accelerations);
@@ -40,6 +77,7 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
         add(s.first[i], s.second[i], most.accelerationShare[i] * accelerations[i]);
     }
     for (std::size_t i = 0; i < s.externalFirst.size(); ++i) {
+        if (s.externalFirst[i] == 0 && s.externalSecond[i] == 0) continue; // most axes are not connected
         l.speed = std::min(l.speed, atMost(most.externalSpeed[i], s.externalFirst[i]));
         add(s.externalFirst[i], s.externalSecond[i], most.externalAcceleration[i]);
     }

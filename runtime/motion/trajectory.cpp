@@ -583,7 +583,7 @@ void Trajectory::standAt(double now, const PathPlace& place) {
     }
 }
 
-void Trajectory::forgetBefore(double time, const LegRef& leg) {
+bool Trajectory::forgetBefore(double time, const LegRef& leg) {
     LegRef oldest = leg;
     for (const auto& follower : followers_)
         if (const auto asking = follower.lock()) {
@@ -594,8 +594,8 @@ void Trajectory::forgetBefore(double time, const LegRef& leg) {
         entries_.pop_front();
         ++first_;
     }
-    if (first_ == oldest.run && !entries_.empty() && entries_.front().pause == 0)
-        entries_.front().run->forgetBefore(time, legStart(oldest).s);
+    if (first_ != oldest.run || entries_.empty() || entries_.front().pause > 0) return false;
+    return entries_.front().run->forgetBefore(time, legStart(oldest).s);
 }
 
 } // namespace motion

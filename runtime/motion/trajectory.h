@@ -65,7 +65,8 @@ class Trajectory {
     Appended appendTogether(const std::vector<Ordered>& moves, double now);
     /// From now on moves are appended together with those of `follower`; the path is empty.
     void addCompanion(const std::shared_ptr<Trajectory>& follower) { followers_.push_back(follower); }
-    std::size_t companionCount() const { return followers_.size(); }
+    /// How many robots move together with the first one; 0: this one moves alone.
+    virtual std::size_t companionCount() const { return followers_.size(); }
     const Companions& companionsOf(std::size_t run) const { return runAt(run).companions(); }
     /// The run is a pause; nothing moves.
     virtual bool isPause(std::size_t run) const { return entry(run).pause > 0; }
@@ -133,8 +134,9 @@ class Trajectory {
     /// The arm is at a place, without having moved there (after braking off the path).
     virtual void standAt(double now, const PathPlace& place);
 
-    /// Drops the part before this time and leg, except for what a follower still asks for: its time may be an earlier one.
-    virtual void forgetBefore(double time, const LegRef& leg);
+    /// Drops the part before this time and leg, except for what a follower still asks for: its time may be an earlier one. True if
+    /// times may be rounded differently from now on.
+    virtual bool forgetBefore(double time, const LegRef& leg);
 
   protected:
     /// Of a follower: the first time and leg of its leader's path that it still asks for.

@@ -84,11 +84,4 @@ AccelerationMap::Arm AccelerationMap::armAt(double axis2, double axis3) const {
     return {square(elbow), square(wrist), square(wrist - a1_) + square(height)};
 }
 
-double AccelerationMap::limit(const AccelerationLimit& axis, const Arm& arm) {
-    const double inertia =
-        axis.base + axis.elbow * arm.elbow2 + axis.wrist * arm.wrist2 + axis.reach * arm.reach2;
-    const double most = inertia > 0 ? 1 / inertia : axis.cap;
-    return axis.scale * (axis.cap > 0 ? std::min(axis.cap, most) : most) / kDeg;
-}
-
 } // namespace robot

@@ -2,9 +2,11 @@
 // Dynamics of an arm as motion planning needs them: how fast each axis may accelerate in a posture, and how the
 // controller smooths speed in time. Figures belong to the model (data file) or are derived from its size and speeds.
 
+#include "runtime/robot/angles.h"
 #include "runtime/robot/expected.h"
 #include "runtime/robot/frames.h"
 
+#include <algorithm>
 #include <array>
 
 namespace robot {
@@ -56,7 +58,12 @@ class AccelerationMap {
         double elbow2 = 0, wrist2 = 0, reach2 = 0; // squares, m^2
     };
     Arm armAt(double axis2, double axis3) const;
-    static double limit(const AccelerationLimit& axis, const Arm& arm);
+    static double limit(const AccelerationLimit& axis, const Arm& arm) {
+        const double inertia =
+            axis.base + axis.elbow * arm.elbow2 + axis.wrist * arm.wrist2 + axis.reach * arm.reach2;
+        const double most = inertia > 0 ? 1 / inertia : axis.cap;
+        return axis.scale * (axis.cap > 0 ? std::min(axis.cap, most) : most) / kDeg;
+    }
 
     Dynamics dynamics_;
     double a1_ = 0, a2_ = 0, c2_ = 0, c3_ = 0; // m

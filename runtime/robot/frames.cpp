@@ -32,6 +32,7 @@ Vec3 rotationVector(const Quat& q) {
 }
 
 double angleBetween(const Quat& a, const Quat& b) {
+    if (a == b) return 0; // on most paths the tool does not turn
     return norm(rotationVector(conjugate(a) * b)) / kDeg;
 }
 
@@ -46,6 +47,7 @@ Quat fromAxisAngle(const Vec3& axis, double angleDeg) {
 }
 
 Quat turnedBy(const Quat& base, const Vec3& rotation, double share) {
+    if (rotation == Vec3{}) return base;
     const double angle = norm(rotation);
     if (angle == 0) return base;
     return base * fromAxisAngle(rotation * (1 / angle), share * angle / kDeg);

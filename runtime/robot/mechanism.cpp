@@ -152,11 +152,14 @@ ConfData Mechanism::quarters(const Joints& joints, int cfx) const {
 }
 
 double Mechanism::turnTowards(const Joints& seed, Joints& candidate) const {
+    const auto linear = static_cast<std::size_t>(std::max(linear_, 0));
+    const double place = candidate[linear];
+    for (std::size_t i = 0; i < kMostJoints; ++i) // those that the arm does not have remain 0
+        candidate[i] = nearestTurn(candidate[i], seed[i]);
+    if (linear_ >= 0) candidate[linear] = place;
     double largest = 0;
-    for (std::size_t i = 0; i < jointCount(); ++i) {
-        if (!isLinear(i)) candidate[i] = nearestTurn(candidate[i], seed[i]);
+    for (std::size_t i = 0; i < kMostJoints; ++i)
         largest = std::max(largest, std::fabs(candidate[i] - seed[i]));
-    }
     return largest;
 }
 

@@ -169,7 +169,7 @@ bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, dou
         return true;
     };
     const double elbowDeg = modelAngle(seed, 2) + plane_.angleDeg;
-    const double within = elbowDeg - 360 * std::round(elbowDeg / 360);
+    const double within = std::abs(elbowDeg) < 180 ? elbowDeg : elbowDeg - 360 * std::round(elbowDeg / 360);
     const int forward = (within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0);
     if (isNear(forward)) return true;
     const int own = configuration(seed).cfx;
