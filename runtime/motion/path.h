@@ -143,7 +143,7 @@ class MotionPath {
     FrameSetup frames_;
     /// The flange is before * target * after, unless something moves a frame; with a stationary tool before * target^-1 * after.
     Pose beforeTarget_, afterTarget_;
-    bool isBeforeTarget_ = false, isAfterTarget_ = false; // no identity
+    bool isBeforeTarget_ = false, isAfterTarget_ = false; // not the identity
     JointTarget start_, end_;
     bool isCartesian_ = false;
     bool isEmpty_ = true;
