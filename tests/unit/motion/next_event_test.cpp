@@ -8,7 +8,7 @@ namespace {
 
 constexpr TimeNs kCycle = 4 * kMs;
 
-/// What may be ordered at a tick.
+/// Orders that a tick may bring.
 void orderSomething(MotionSystem& system, unsigned dice, int number) {
     const double turn = 20.0 * (number % 4);
     switch (dice) {
