@@ -52,21 +52,16 @@ void RepeatFilter::take(const Event& event) {
     if (known_.size() > kWindow) known_.pop_front();
 }
 
-const RepeatFilter::Known* RepeatFilter::knownAs(uint64_t taken) const {
-    const auto found = std::find_if(known_.rbegin(), known_.rend(),
-                                    [taken](const Known& known) { return known.taken == taken; });
-    return found == known_.rend() ? nullptr : &*found;
-}
-
 bool RepeatFilter::repeat(uint64_t taken, uint64_t sequence, Time time) {
-    auto* const known = const_cast<Known*>(knownAs(taken)); // of this object, which is not const
-    if (known != nullptr) count(*known, sequence, time);
-    return known != nullptr;
+    const auto found = knownAs(known_, taken);
+    if (found == known_.rend()) return false;
+    count(*found, sequence, time);
+    return true;
 }
 
 const Event* RepeatFilter::find(uint64_t taken) const {
-    const Known* const known = knownAs(taken);
-    return known != nullptr ? &known->event : nullptr;
+    const auto found = knownAs(known_, taken);
+    return found != known_.rend() ? &found->event : nullptr;
 }
 
 void RepeatFilter::count(Known& known, uint64_t sequence, Time time) {

@@ -4,6 +4,7 @@
 
 #include "runtime/log/event.h"
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <utility>
@@ -32,7 +33,11 @@ class RepeatFilter {
         Time since = 0;       ///< of the first of them
         uint64_t taken = 0;   ///< sequence number at the last `take`
     };
-    const Known* knownAs(uint64_t taken) const;
+    /// Of `known_`, the entry that was taken with that sequence number, or the end of the search, which begins with the latest.
+    template <class Entries> static auto knownAs(Entries& known, uint64_t taken) {
+        return std::find_if(known.rbegin(), known.rend(),
+                            [taken](const Known& each) { return each.taken == taken; });
+    }
     static void count(Known& known, uint64_t sequence, Time time);
     std::function<void(const Event&)> put_;
     std::deque<Known> known_; ///< the latest one last

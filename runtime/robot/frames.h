@@ -86,11 +86,13 @@ inline Vec3 rotate(const Quat& q, const Vec3& v) {
 inline double norm(const Quat& q) {
     return std::sqrt(dot(q, q));
 }
-/// Scaled to unit length; a quaternion of length zero becomes the identity.
-inline Quat normalized(const Quat& q) {
-    const double length = norm(q);
+/// Scaled to unit length; `length`: of `q`. A quaternion of length zero becomes the identity.
+inline Quat normalized(const Quat& q, double length) {
     if (!(length > 0)) return {};
     return {q.w / length, q.x / length, q.y / length, q.z / length};
+}
+inline Quat normalized(const Quat& q) {
+    return normalized(q, norm(q));
 }
 
 /// Coordinates of frame c in a, from b in a and c in b (RAPID's PoseMult).

@@ -33,11 +33,8 @@ inline robot::Quat toUnitQuat(const data::Orient& o) {
     const double square = dot(q, q);
     const double excess = square - 1;
     constexpr double kClose = 1e-6;
-    if (!(std::abs(excess) < kClose)) [[unlikely]] {
-        const double length = unusualLength(square);
-        if (!(length > 0)) return {}; // as robot::normalized
-        return {q.w / length, q.x / length, q.y / length, q.z / length};
-    }
+    if (!(std::abs(excess) < kClose)) [[unlikely]]
+        return robot::normalized(q, unusualLength(square));
     const double scale = 1 + excess * (excess * 0.375 - 0.5);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/sched/error_search.h"
+#include "tools/rapidc/dap/stop_event.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -119,10 +120,7 @@ std::optional<Json> ExecutionRequests::pause(const Request& request, const Argum
     }
     if (context_.stopped != nullptr) {
         context_.client.answer(request, nullptr);
-        context_.client.event("stopped", {{"reason", "pause"},
-                                          {"description", "Paused"},
-                                          {"threadId", Context::threadOf(task)},
-                                          {"allThreadsStopped", true}});
+        context_.client.event("stopped", stopEvent(rt::StopReason::Order, task));
         return std::nullopt;
     }
     if (!context_.running) throw Refusal("the program is not executing");

@@ -2,34 +2,13 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/sched/error_search.h"
+#include "tools/rapidc/dap/stop_event.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
 namespace rapidc::dap {
-
-namespace {
-
-const char* descriptionOf(rt::StopReason reason) {
-    switch (reason) {
-    case rt::StopReason::Entry: return "Stopped at the first instruction";
-    case rt::StopReason::Breakpoint: return "Stopped at a breakpoint";
-    case rt::StopReason::Step: return "Stepped";
-    case rt::StopReason::CirclePoint: return "Stepped to the circle point";
-    case rt::StopReason::Cursor: return "Stopped at the cursor";
-    case rt::StopReason::Order: return "Paused";
-    case rt::StopReason::Stop: return "Stopped by an instruction";
-    case rt::StopReason::Error: return "Stopped by an error";
-    case rt::StopReason::Pointer: return "Program pointer moved";
-    case rt::StopReason::Routine: return "Stopped at a routine";
-    case rt::StopReason::Data: return "Stopped because data have changed";
-    case rt::StopReason::Raised: return "Stopped at an error that a handler takes";
-    }
-    return "";
-}
-
-} // namespace
 
 Session::Session(protocol::Channel& channel, rt::Inbox& inbox, StrayOutput& stray)
     : client_(channel), stray_(stray), context_{client_, inbox, {}, nullptr, nullptr, false, nullptr},
@@ -353,24 +332,6 @@ bool Session::stopsAtHandledError(const rt::Task&, int number) {
     return breakpoints_.stopsAtHandledError(number);
 }
 
-std::string Session::reasonOf(rt::StopReason reason) {
-    switch (reason) {
-    case rt::StopReason::Entry: return "entry";
-    case rt::StopReason::Breakpoint: return "breakpoint";
-    case rt::StopReason::Routine: return "function breakpoint";
-    case rt::StopReason::Data: return "data breakpoint";
-    case rt::StopReason::Step:
-    case rt::StopReason::CirclePoint:
-    case rt::StopReason::Cursor: return "step";
-    case rt::StopReason::Order:
-    case rt::StopReason::Stop: return "pause";
-    case rt::StopReason::Error:
-    case rt::StopReason::Raised: return "exception";
-    case rt::StopReason::Pointer: return "goto";
-    }
-    return "pause";
-}
-
 void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason reason) {
     // The program pointer at another routine: that is entered, so that there is a place to show.
     if (reason == rt::StopReason::Pointer && debugger.frames(task).empty() &&
@@ -385,10 +346,8 @@ void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason rea
     showStray();
     sources_.look();
     const bool restarted = execution_.takeRestart() && reason == rt::StopReason::Pointer;
-    Json body{{"reason", restarted ? "restart" : reasonOf(reason)},
-              {"description", descriptionOf(reason)},
-              {"threadId", Context::threadOf(task)},
-              {"allThreadsStopped", true}};
+    Json body = stopEvent(reason, task);
+    if (restarted) body["reason"] = "restart";
     if (reason == rt::StopReason::Breakpoint || reason == rt::StopReason::Routine ||
         reason == rt::StopReason::Data) {
         Json ids = Json::array();
@@ -402,7 +361,8 @@ void Session::stopped(rt::Debugger& debugger, rt::Task& task, rt::StopReason rea
                         context_.controller().log().errorName(task.errorNumber), task.errorText()};
         body["text"] = error.text;
         if (!error.name.empty())
-            body["description"] = fmt::format("{}: {}", descriptionOf(reason), error.name);
+            body["description"] =
+                fmt::format("{}: {}", body["description"].get_ref<const std::string&>(), error.name);
         inspection_.setError(std::move(error));
     }
     client_.event("stopped", std::move(body));

@@ -53,7 +53,6 @@ class Session final : public rt::DebugClient {
     void carryOutRestart();
     void showStray();
     void progress(bool begins);
-    static std::string reasonOf(rt::StopReason reason);
     void showRobot(rt::Task& task);
 
     Client client_;
