@@ -53,15 +53,14 @@ void RepeatFilter::take(const Event& event) {
 }
 
 bool RepeatFilter::repeat(uint64_t taken, uint64_t sequence, Time time) {
-    const auto found = knownAs(known_, taken);
-    if (found == known_.rend()) return false;
-    count(*found, sequence, time);
-    return true;
+    Known* const known = knownAs(known_, taken);
+    if (known != nullptr) count(*known, sequence, time);
+    return known != nullptr;
 }
 
 const Event* RepeatFilter::find(uint64_t taken) const {
-    const auto found = knownAs(known_, taken);
-    return found != known_.rend() ? &found->event : nullptr;
+    const Known* const known = knownAs(known_, taken);
+    return known != nullptr ? &known->event : nullptr;
 }
 
 void RepeatFilter::count(Known& known, uint64_t sequence, Time time) {

@@ -4,7 +4,6 @@
 
 #include "runtime/log/event.h"
 
-#include <algorithm>
 #include <deque>
 #include <functional>
 #include <utility>
@@ -33,10 +32,11 @@ class RepeatFilter {
         Time since = 0;       ///< of the first of them
         uint64_t taken = 0;   ///< sequence number at the last `take`
     };
-    /// Of `known_`, the entry that was taken with that sequence number, or the end of the search, which begins with the latest.
-    template <class Entries> static auto knownAs(Entries& known, uint64_t taken) {
-        return std::find_if(known.rbegin(), known.rend(),
-                            [taken](const Known& each) { return each.taken == taken; });
+    /// The entry of `known` that was taken with that sequence number; null: none. The latest is the most likely one.
+    template <class Entries> static auto* knownAs(Entries& known, uint64_t taken) {
+        for (std::size_t i = known.size(); i-- > 0;)
+            if (known[i].taken == taken) return &known[i];
+        return decltype(&known[0])(nullptr);
     }
     static void count(Known& known, uint64_t sequence, Time time);
     std::function<void(const Event&)> put_;

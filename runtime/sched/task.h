@@ -447,6 +447,10 @@ class Task : public TaskCore {
     Status beginUnwind(Unwind cause);
     Status systemHandler(int eventNumber, int number, std::string text, const SourcePlace& where,
                          const std::string& hint = {});
+    /// An error goes to its handler at once: the task is not being unwound or led back, and stepping does not ask.
+    bool raisesAsUsual() const {
+        return unwinding_ == Unwind::None && guide_ == nullptr && askSteps == 0 && !undoAborted_;
+    }
     Status raiseOnce(Frame* at, int number);
     Status dispatchError(const ErrorRoute& route, int number, const Frame* from);
     Status startJump(Frame* target, int number, HandlerDecision decision = kNotDecided);
@@ -464,6 +468,7 @@ class Task : public TaskCore {
     void noteHandled(Frame* handler, int number);
     void flushHandledWarning();
     void writeHandledWarning();
+    void writeHandledEvent();
     void dropHandled(const Frame* outermost);
     bool isInside(const HandledError& handled) const;
 

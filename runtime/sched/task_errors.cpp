@@ -110,10 +110,10 @@ void Task::noteRaised(int number) {
 /// Called by compiled code for a check or RAISE: started again after the system handler, the instruction fails again.
 Status Task::raiseAt(Frame* at, int number) {
     // The usual error does what raiseOnce does, without questions whose answers are known: a program may raise millions.
-    const bool isUsual = handled_.empty() && errorDetail_.empty() && !raiseToCaller_ && !undoAborted_ &&
-                         unwinding_ == Unwind::None && guide_ == nullptr && askSteps == 0;
-    if (isUsual && at != nullptr && handles(*at, number) && at->routine->isBuiltin == 0) {
+    if (raisesAsUsual() && errorDetail_.empty() && !raiseToCaller_ && at != nullptr && handles(*at, number) &&
+        at->routine->isBuiltin == 0) {
         frame = at;
+        flushHandledWarning();
         error_.set(number, at, errorDetail_);
         scheduler_.errorRaised(*this, number);
         errorNumber = number;
@@ -157,6 +157,14 @@ Status Task::propagateFrom(Frame* handler) {
     const int number = errorNumber;
     Frame* const caller = handler->caller;
     const bool detached = handler->routine->isDetachedHandler != 0;
+    if (raisesAsUsual() && !detached) { // as dispatchError would
+        const ErrorRoute route = routeFromCall(caller, number);
+        if (route.handler != nullptr && !route.longJump) {
+            frame = handler;
+            noteHandled(route.handler, number);
+            return number;
+        }
+    }
     while (true) {
         frame = handler;
         const Status status =
@@ -429,9 +437,9 @@ void Task::resetRetryCount() {
 }
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.
-bool Task::isInside(const HandledError& handled) const {
+inline bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
-    if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
+    if (!detached_.empty() && std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
     return inProgress && handled.frame->routine == handled.routine && inHandler(*handled.frame);
 }
@@ -457,18 +465,23 @@ void Task::skipWarn() {
     if (!handled_.empty()) handled_.pop_back();
 }
 
-[[gnu::noinline, gnu::cold]] void Task::writeHandledWarning() {
-    HandledError handled = std::move(handled_.back());
-    handled_.pop_back();
-    // A loop that handles the same errors again and again only counts their events.
+/// A loop that handles the same errors again and again only counts their events.
+void Task::writeHandledWarning() {
+    const HandledError& handled = handled_.back();
     for (Warned& warned : warned_) {
         const bool isSame = warned.event != 0 && handled.routine == warned.handled.routine &&
                             handled.number == warned.handled.number &&
                             handled.error.isLike(warned.handled.error);
         if (!isSame) continue;
-        if (host_.log().repeat(warned.event, now())) return;
+        if (host_.log().repeat(warned.event, now())) return handled_.pop_back();
         warned.event = 0; // it is written again
     }
+    writeHandledEvent();
+}
+
+[[gnu::noinline, gnu::cold]] void Task::writeHandledEvent() {
+    HandledError handled = std::move(handled_.back());
+    handled_.pop_back();
     const std::string text = handled.error.text(host_.log());
     Event event;
     event.number = static_cast<int>(EventId::HandledError);
