@@ -17,7 +17,7 @@ double atMost(double limit, double rate) {
 using Pair = double __attribute__((vector_size(16)));
 
 template <class Numbers> Pair pairAt(const Numbers& numbers, std::size_t i) {
-    return {numbers[i], numbers[i + 1]};
+    return Pair{numbers[i], numbers[i + 1]};
 }
 
 } // namespace
