@@ -2,7 +2,10 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <iterator>
+#include <string_view>
+#include <unistd.h>
 
 namespace rt {
 namespace {
@@ -12,6 +15,12 @@ constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 struct sigaction previous[std::size(kStopSignals)];
 volatile std::sig_atomic_t noted = 0;
 
+struct sigaction previousAlarm;
+timer_t patienceTimer;
+itimerspec patienceTime;
+volatile std::sig_atomic_t isPatienceLimited = 0;
+constexpr int kSignalStatus = 128; // what a shell adds to the number of the signal
+
 void killBy(int signal) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -19,16 +28,40 @@ void killBy(int signal) {
 
 // Runs at any moment: nothing but what is async-signal-safe.
 extern "C" void noteSignal(int signal) {
-    if (noted == 0)
+    if (noted == 0) {
         noted = signal;
-    else if (signal != SIGPIPE) // each further write to the closed pipe brings one
+        if (isPatienceLimited != 0) timer_settime(patienceTimer, 0, &patienceTime, nullptr);
+    } else if (signal != SIGPIPE) // each further write to the closed pipe brings one
         killBy(signal);
+}
+
+extern "C" void endWithoutOrder(int /*signal*/) {
+    constexpr std::string_view kMessage = "rapidc: ended while work was in progress\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
+    _exit(kSignalStatus + noted);
+}
+
+void limitPatience(std::chrono::milliseconds patience) {
+    struct sigaction action{};
+    action.sa_handler = endWithoutOrder;
+    sigemptyset(&action.sa_mask);
+    sigevent event{};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = SIGALRM;
+    if (timer_create(CLOCK_MONOTONIC, &event, &patienceTimer) != 0) return;
+    sigaction(SIGALRM, &action, &previousAlarm);
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(patience);
+    patienceTime = {};
+    patienceTime.it_value.tv_sec = seconds.count();
+    patienceTime.it_value.tv_nsec = std::chrono::nanoseconds(patience - seconds).count();
+    isPatienceLimited = 1;
 }
 
 } // namespace
 
-StopSignals::StopSignals() {
+StopSignals::StopSignals(std::chrono::milliseconds patience) {
     noted = 0;
+    if (patience.count() > 0) limitPatience(patience);
     struct sigaction action{};
     action.sa_handler = noteSignal;
     action.sa_flags = SA_RESTART;
@@ -42,6 +75,11 @@ StopSignals::StopSignals() {
 StopSignals::~StopSignals() {
     for (std::size_t i = 0; i < std::size(kStopSignals); ++i)
         sigaction(kStopSignals[i], &previous[i], nullptr);
+    if (isPatienceLimited != 0) {
+        isPatienceLimited = 0;
+        timer_delete(patienceTimer);
+        sigaction(SIGALRM, &previousAlarm, nullptr);
+    }
     noted = 0;
 }
 

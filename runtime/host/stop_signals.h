@@ -1,6 +1,8 @@
 #pragma once
 // StopSignals: Ctrl-C and its kin end a run in order: event, complete files, temporary HOME: removed.
 
+#include <chrono>
+
 namespace rt {
 
 /// While an object of this class lives, the first SIGINT, SIGTERM, SIGHUP or SIGPIPE (the reader of the output is
@@ -8,7 +10,9 @@ namespace rt {
 /// process at once. Signals that the process was started to ignore (nohup) stay ignored. One object at a time.
 class StopSignals {
   public:
-    StopSignals();
+    /// With a `patience` above 0 the process ends with status 128 + number of the signal when this object still lives
+    /// that long after the first signal: a compilation in progress does not look at received().
+    explicit StopSignals(std::chrono::milliseconds patience = std::chrono::milliseconds{0});
     ~StopSignals();
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;

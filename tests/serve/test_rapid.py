@@ -261,6 +261,18 @@ class Execution(RapidCase):
             self.eventually(lambda: any(event.type == "rap-pp-ev" for event in socket.events_within(0.3)) or
                             ("rap-pp-ev", "11") in seen)
 
+    def test_event_of_a_pointer_that_is_moved(self):
+        """2.4: tasks/T/pcp;programpointerchange, even when a client moves the pointer of a stopped program."""
+        for client in self.both():
+            writer = self.client(1)
+            self.reset(writer)
+            socket = self.socket(client, client.subscribe(f"{TASK}/pcp;programpointerchange"))
+            for routine in ("part", "main", "part"):
+                form = {"module": "M", "routine": routine, "userlevel": "TRUE"}
+                self.assertEqual(writer.post(f"{TASK}/pcp?action=set-pp-routine", form).status, 204)
+                event = socket.event()
+                self.assertEqual((event.type, event.values["routine-name"]), ("rap-pp-ev", routine))
+
     def test_count_of_resources(self):
         """2.5, A10: its clients write the number of resources into the field `resources`."""
         for client in self.both():

@@ -19,9 +19,13 @@ bool StateWatch::lookAt(const rt::Task& task, bool often) {
     seen.cause = task.stopCause();
     seen.state = task.state();
     if (!changed && executes && often) return false;
+    const rt::RoutineDesc* const routine = task.frame == nullptr ? nullptr : task.frame->routine;
     const int32_t statement = task.frame == nullptr ? -1 : task.frame->statement;
-    if (changed || seen.frame != task.frame || seen.statement != statement) {
+    if (changed || seen.entry != task.nextEntry() || seen.frame != task.frame || seen.routine != routine ||
+        seen.statement != statement) {
+        seen.entry = task.nextEntry();
         seen.frame = task.frame;
+        seen.routine = routine;
         seen.statement = statement;
         controller_.observers().changed(Change::ProgramPointer, &task);
     }

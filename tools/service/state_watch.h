@@ -28,7 +28,9 @@ class StateWatch {
     struct Seen {
         rt::TaskState state = rt::TaskState::Ready;
         rt::StopCause cause = rt::StopCause::None;
+        rt::EntryFunction entry = nullptr; ///< where the next start begins when no routine has been entered
         const rt::Frame* frame = nullptr;
+        const rt::RoutineDesc* routine = nullptr; ///< of the frame, whose place another one may take
         int32_t statement = -1;
         int32_t move = -1; ///< statement of the motion pointer
     };

@@ -8,6 +8,7 @@
 #include "tools/rapidc/serve/serving.h"
 #include "tools/rapidc/usage.h"
 
+#include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -16,12 +17,14 @@ namespace rapidc {
 namespace {
 
 constexpr int kSignalStatus = 128; ///< what a shell adds to the number of the signal
+/// Clients count on an end within 2 s of the signal, even when a large program is being compiled.
+constexpr std::chrono::milliseconds kPatience{1700};
 
 int serveInputs(serve::ServeSettings& settings) {
     std::vector<std::unique_ptr<rapid::config::TemporaryFolder>> folders;
     if (const std::string problem = complete(settings, folders); !problem.empty())
         return usageError("serve", problem);
-    const rt::StopSignals signals;
+    const rt::StopSignals signals(kPatience);
     rt::ExitStatus status = rt::ExitStatus::Ended;
     {
         service::VirtualController controller(settings.controller);
