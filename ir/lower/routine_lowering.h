@@ -233,8 +233,8 @@ class RoutineLowering {
     // lower_evaluated.cpp
     /// The value of a constant expression, or of a call that is evaluated; null for others.
     const sema::ConstValue* constantOf(const Expr& expr);
-    const sema::ConstValue* evaluatedCall(const syntax::Node& node, const BoundCall& call);
-    std::optional<ConstArguments> constantArguments(const BoundCall& call);
+    const sema::ConstValue* evaluatedCall(const syntax::Node& node, const sema::BoundCall& call);
+    std::optional<ConstArguments> constantArguments(const sema::BoundCall& call);
     ValueId lowerEvaluated(const sema::ConstValue& value, const sema::DataType& type, ValueId resultAddr);
 
     // lower_call.cpp
