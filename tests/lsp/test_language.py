@@ -628,6 +628,24 @@ class FileOperations(Language):
         self.assertIsNone(self.client.request("workspace/willRenameFiles", {"files": [
             {"oldUri": "file:///x/a.txt", "newUri": "file:///x/b.txt"}]}))
 
+    def test_renaming_a_file_of_a_backup(self):
+        """The list of a backup names its modules with their folder, by task: only the line of this file follows."""
+        module = "MODULE pick\n  PROC main()\n  ENDPROC\nENDMODULE\n"
+        path = self.write("cell/RAPID/TASK1/PROGMOD/pick.mod", module)
+        for other in ("TASK1/SYSMOD", "TASK2/PROGMOD"):
+            self.write(f"cell/RAPID/{other}/pick.mod", module)
+        lines = [">>TASK1: (T_ROB1,,)", "SYSMOD\\pick.mod @ ", "PROGMOD\\PICK.MOD @ pick.mod",
+                 ">>TASK2: (T_BACK,,)", "PROGMOD\\pick.mod @ ", ">>EOF:", ""]
+        text = "\r\n".join(lines)
+        listed = self.write("cell/BACKINFO/backinfo.txt", text)
+        client = self.connect()
+        client.initialize([os.path.join(self.work(), "cell")])
+        new = os.path.join(os.path.dirname(path), "place.mod")
+        edit = changes_of(client.request("workspace/willRenameFiles",
+                                         {"files": [{"oldUri": uri(path), "newUri": uri(new)}]}))
+        lines[2] = "PROGMOD\\place.mod @ place.mod"
+        self.assertEqual(edited(text, edit[uri(listed)]), "\r\n".join(lines))
+
 
 if __name__ == "__main__":
     unittest.main()
