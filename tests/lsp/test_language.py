@@ -616,6 +616,27 @@ class Configuration(Language):
         self.assertIn("SignalType", hover["contents"]["value"])
 
 
+class ProgramFiles(Language):
+    """Issue 19: completion and definition in .pgf: the modules beside it that it does not list yet; an entry leads to its file."""
+
+    def test_modules_of_a_program_file(self):
+        program = "<?xml version=\"1.0\"?>\n<Program>\n<Module>cell.modx</Module>\n<Module></Module>\n<Module>pa</Module>\n</Program>\n"
+        part = self.write("part.mod", "MODULE part\nENDMODULE\n")
+        self.write("notes.txt", "")
+        document = self.client.open(self.write("p.pgf", program), program)
+        for word, offset in (("<Module></", 8), (">pa<", 3)):
+            found = self.client.request("textDocument/completion", at(document, program, word, offset=offset))["items"]
+            self.assertEqual([i["label"] for i in found], ["part.mod"])
+        self.assertEqual(edited(program, [found[0]["textEdit"]]), program.replace(">pa<", ">part.mod<"))
+        outside = self.client.request("textDocument/completion", at(document, program, "<Program>", offset=9))
+        self.assertEqual(outside["items"], [])
+        self.assertEqual([f["uri"] for f in self.client.request("textDocument/definition", at(document, program, "cell"))],
+                         [self.document])
+        self.client.change(document, 2, program.replace(">pa<", ">part.mod<"))
+        found = self.client.request("textDocument/definition", at(document, program, ">pa<", offset=2))
+        self.assertEqual([f["uri"] for f in found], [uri(part)])
+
+
 class FileOperations(Language):
     def test_renaming_the_file_of_a_module(self):
         program = '<?xml version="1.0" encoding="ISO-8859-1" ?>\n<Program>\n\t<Module>cell.modx</Module>\n</Program>\n'
