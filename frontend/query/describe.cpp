@@ -1,5 +1,7 @@
 #include "frontend/query/describe.h"
 
+#include "frontend/syntax/tree_walk.h"
+
 #include <fmt/format.h>
 
 namespace rapid::query {
@@ -41,12 +43,19 @@ std::string_view word(ParamMode mode) {
     return "";
 }
 
+/// The name of a type; of an unknown one the word in the declaration.
+std::string nameOf(const Type* type, const Symbol& symbol, TokenIndex word) {
+    if (type && type->kind != TypeKind::Error && !type->name.empty()) return type->name;
+    const bool written = word != kNoToken && symbol.module && symbol.module->tree;
+    return written ? std::string(symbol.module->tree->text(word)) : "?";
+}
+
 /// The type without dimensions, and these.
-std::pair<std::string, std::string> parts(const DataType& type) {
+std::pair<std::string, std::string> parts(const DataType& type, const Symbol& symbol) {
     DataType element = type;
     element.rank = 0;
-    std::string name = typeText(element), all = typeText(type);
-    return {name, all.substr(name.size())};
+    return {nameOf(type.type, symbol, symbol.decl ? typeTokenOf(*symbol.decl) : kNoToken),
+            typeText(type).substr(typeText(element).size())};
 }
 
 std::string typeDeclaration(const TypeSymbol& symbol) {
@@ -57,13 +66,18 @@ std::string typeDeclaration(const TypeSymbol& symbol) {
     if (type->kind != TypeKind::Record || type->components.empty())
         return symbol.predefined ? symbol.name : local + "RECORD " + symbol.name;
     std::string text = local + "RECORD " + symbol.name;
-    for (const Type::Component& component : type->components)
-        text += fmt::format("\n   {} {};", component.type ? component.type->name : "?", component.name);
+    const auto* decl =
+        symbol.decl && symbol.decl->kind == NodeKind::Record ? &as<RecordDecl>(*symbol.decl) : nullptr;
+    for (size_t i = 0; i < type->components.size(); ++i) {
+        const Type::Component& component = type->components[i];
+        const TokenIndex word = decl && i < decl->components.size() ? decl->components[i]->type : kNoToken;
+        text += fmt::format("\n   {} {};", nameOf(component.type, symbol, word), component.name);
+    }
     return text + "\nENDRECORD";
 }
 
 std::string dataDeclaration(const DataSymbol& data) {
-    const auto [type, dims] = parts(data.type);
+    const auto [type, dims] = parts(data.type, data);
     switch (data.storage) {
     case Storage::Parameter: return parameterText(data);
     case Storage::LoopVariable:
@@ -81,7 +95,7 @@ std::string dataDeclaration(const DataSymbol& data) {
 
 std::string parameterText(const DataSymbol& parameter) {
     if (parameter.isSwitch) return (parameter.optional ? "\\switch " : "switch ") + parameter.name;
-    auto [type, dims] = parts(parameter.type);
+    auto [type, dims] = parts(parameter.type, parameter);
     return fmt::format("{}{}{} {}{}", parameter.optional ? "\\" : "", word(parameter.mode), type,
                        parameter.name, dims);
 }
@@ -92,7 +106,11 @@ RoutineLabel routineLabel(const RoutineSymbol& routine) {
     if (routine.isLocal) text = "LOCAL ";
     switch (routine.routineKind) {
     case RoutineKind::Trap: text += "TRAP " + routine.name; return label;
-    case RoutineKind::Func: text += "FUNC " + typeText(routine.returnType) + " " + routine.name; break;
+    case RoutineKind::Func: {
+        const auto [type, dims] = parts(routine.returnType, routine);
+        text += fmt::format("FUNC {}{} {}", type, dims, routine.name);
+        break;
+    }
     case RoutineKind::Proc: text += "PROC " + routine.name; break;
     }
     text += '(';

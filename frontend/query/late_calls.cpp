@@ -47,8 +47,10 @@ std::optional<LateCall> lateCallOf(const FileView& file, const CallStmt& call) {
     late.range = file.tree->range(*string);
     late.call = &call;
     // "module:name" names a procedure of a module.
-    if (const size_t colon = late.beginning.find(':'); colon != std::string::npos)
+    if (const size_t colon = late.beginning.find(':'); colon != std::string::npos) {
+        late.module = late.beginning.substr(0, colon);
         late.beginning.erase(0, colon + 1);
+    }
     return late;
 }
 
@@ -80,6 +82,7 @@ std::vector<const RoutineSymbol*> targetsOf(const Snapshot& snapshot, const File
                                             const LateCall& call) {
     std::vector<const RoutineSymbol*> found;
     const auto consider = [&](const Module& module, bool local) {
+        if (!call.module.empty() && foldName(module.name) != call.module) return;
         for (const RoutineSymbol* routine : module.routines)
             if (routine->routineKind == RoutineKind::Proc && (local || !routine->isLocal) &&
                 mayMean(call, routine->name))

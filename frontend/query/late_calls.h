@@ -9,6 +9,7 @@ namespace rapid::query {
 
 /// The procedures that a call by name may mean.
 struct LateCall {
+    std::string module;    ///< that the string names before a colon, folded; empty: any
     std::string beginning; ///< of the name, folded; all of it when `whole`
     bool whole = false;
     bool byNumber = false; ///< CallByVar: a number follows

@@ -84,8 +84,7 @@ std::vector<FileLink> programFileLinks(std::string_view text) {
             --end;
         std::string path(text.substr(begin, end - begin));
         std::replace(path.begin(), path.end(), '\\', '/');
-        if (!path.empty())
-            links.push_back({{static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}, std::move(path)});
+        links.push_back({{static_cast<uint32_t>(begin), static_cast<uint32_t>(end)}, std::move(path)});
     }
     return links;
 }

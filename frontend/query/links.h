@@ -12,7 +12,7 @@ struct FileLink {
 
 /// Arguments of instructions that load and unload modules; a path and a `\File` make one.
 std::vector<FileLink> documentLinks(const FileView& file, const Cancel* cancel = nullptr);
-/// The modules that a program file (.pgf) lists.
+/// The modules that a program file (.pgf) lists; an entry without a name has an empty path and range.
 std::vector<FileLink> programFileLinks(std::string_view text);
 
 } // namespace rapid::query

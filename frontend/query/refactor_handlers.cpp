@@ -42,9 +42,11 @@ void addHandlers(const RefactorPlace& place, Refactorings& out) {
     if (!routine || !module || routine->name == kNoToken || routine->first == kNoToken ||
         routine->last <= routine->name)
         return;
-    // On the header only, so that it does not disturb elsewhere.
+    // All of them on the header; elsewhere in the routine that for errors only, so that they do not disturb.
     const SourceRange header = {place.tree.range(routine->first).begin, place.tree.range(routine->name).end};
-    if (place.selection.begin < header.begin || place.selection.begin > header.end) return;
+    const uint32_t at = place.selection.begin;
+    if (at < header.begin || at > place.tree.range(routine->last).end) return;
+    const bool onHeader = at <= header.end;
     const TokenKind end = place.tree.tokens[routine->last].kind;
     if (end != TokenKind::KwEndproc && end != TokenKind::KwEndfunc && end != TokenKind::KwEndtrap) return;
     const TokenIndex undo =
@@ -61,6 +63,7 @@ void addHandlers(const RefactorPlace& place, Refactorings& out) {
         out.push_back(std::move(refactoring));
     };
     if (routine->errors.empty()) offer("ERROR", undo, "RAISE;");
+    if (!onHeader) return;
     if (!routine->hasUndo) offer("UNDO", routine->last, "! executed when the routine is left before its end");
     if (!routine->hasBackward && routine->routineKind == RoutineKind::Proc)
         offer("BACKWARD", error, "! executed instead of the body in backward execution");

@@ -386,15 +386,6 @@ class UseWalk {
         return seen->isLocal ? nullptr : seen;
     }
 
-    static TokenIndex typeToken(const Symbol& symbol) {
-        switch (symbol.decl->kind) {
-        case NodeKind::Data: return as<DataDecl>(*symbol.decl).type;
-        case NodeKind::Param: return as<ParamDecl>(*symbol.decl).type;
-        case NodeKind::Routine: return as<RoutineDecl>(*symbol.decl).returnType;
-        default: return kNoToken;
-        }
-    }
-
     static bool isWrong(const Uses& uses) {
         if (!uses.contradicted || uses.said.size() < kEnoughUses) return false;
         if (!uses.needed.type) return *uses.shape && !uses.number;
@@ -402,7 +393,7 @@ class UseWalk {
     }
 
     static void addDeclared(std::vector<Repeat>& out, const Symbol& symbol, const Uses& uses) {
-        const TokenIndex token = typeToken(symbol);
+        const TokenIndex token = typeTokenOf(*symbol.decl);
         Repeat repeat = {members(uses.said), {}, guardOf(symbol)};
         if (token == kNoToken || repeat.members.size() < kEnoughUses) return;
         const DataType declared = symbol.kind == SymbolKind::Routine

@@ -11,6 +11,7 @@
 #include "frontend/sema/suggestions.h"
 #include "frontend/sema/wording.h"
 #include "frontend/syntax/token_set.h"
+#include "frontend/syntax/tree_walk.h"
 
 namespace rapid::sema {
 
@@ -31,6 +32,11 @@ bool beginsParameters(const SyntaxTree& tree, size_t token) {
     const size_t first = kind(token + 1) == TokenKind::Backslash ? token + 2 : token + 1;
     return kModes.has(kind(first)) ||
            (kind(first) == TokenKind::Identifier && kind(first + 1) == TokenKind::Identifier);
+}
+
+/// Whether a token is in the line of the one before it.
+bool continuesLine(const SyntaxTree& tree, TokenIndex token) {
+    return gapBefore(tree, token).find_first_of("\r\n") == std::string_view::npos;
 }
 
 /// A declaration that begins as it should, from its word on.
@@ -81,14 +87,11 @@ void UnknownNames::mayDeclareTorn(const SyntaxTree& tree, TokenIndex word) {
     const auto kindAt = [&](TokenIndex i) { return tree.tokens[i].kind; };
     const bool data = kindAt(word) == TokenKind::KwVar || kindAt(word) == TokenKind::KwPers ||
                       kindAt(word) == TokenKind::KwConst;
-    const std::string_view text = tree.source->text();
     std::vector<std::string> names; // that end at the word before
     const size_t own = tokenText(kindAt(word)).size();
     if (tree.text(word).size() > own) task_.maybeDeclared.insert(names_.intern(tree.text(word).substr(own)));
     for (TokenIndex i = word + 1; i < word + kMost && !kEnd.has(kindAt(i)); ++i) {
-        const uint32_t gap = tree.range(i - 1).end;
-        if (text.substr(gap, tree.tokens[i].offset - gap).find_first_of("\r\n") != std::string_view::npos)
-            return;
+        if (!continuesLine(tree, i)) return;
         if (!data && kindAt(i) == TokenKind::LeftParen) return;
         if (kindAt(i) != TokenKind::Identifier && kindAt(i) != TokenKind::NumLiteral && !isKeyword(kindAt(i)))
             continue;
@@ -104,13 +107,15 @@ void UnknownNames::mayDeclareTorn(const SyntaxTree& tree, TokenIndex word) {
 }
 
 // After a syntax error a name may be missing because its declaration could not be read: its use is not the
-// mistake. Such a declaration still shows two words in a row, the second of which is the name, and the first is not an
-// instruction, as in `MoveL p10`; or parameters follow the name.
+// mistake. Such a declaration still shows two words in a line, the second of which is the name, and the first is not a
+// procedure, as in `MoveL p10` or `pick p10`; or parameters follow the name.
 bool UnknownNames::mayReportUnknown(NameId name) {
     if (context_.module) facts().open = true;
-    const auto isInstruction = [&](std::string_view word) {
-        const Symbol* symbol = at(state_.predefined, names_.intern(word));
-        return symbol && symbol->kind == SymbolKind::Routine;
+    const auto isRoutine = [&](std::string_view word) {
+        const NameId id = names_.intern(word);
+        const Symbol* known = at(task_.globals, id);
+        if (!known) known = at(state_.predefined, id);
+        return known && known->kind == SymbolKind::Routine;
     };
     for (const SyntaxTree* tree : std::exchange(task_.brokenTrees, {})) {
         for (TokenIndex i = 0; tree && i + 1 < tree->tokens.size(); ++i) {
@@ -118,7 +123,7 @@ bool UnknownNames::mayReportUnknown(NameId name) {
             const bool declares = before == TokenKind::Identifier || before == TokenKind::KwProc ||
                                   before == TokenKind::KwTrap || before == TokenKind::KwRecord;
             if (declares && tree->tokens[i + 1].kind == TokenKind::Identifier &&
-                !isInstruction(tree->text(i)))
+                continuesLine(*tree, i + 1) && !isRoutine(tree->text(i)))
                 task_.maybeDeclared.insert(names_.intern(tree->text(i + 1)));
             if (before == TokenKind::Identifier && beginsParameters(*tree, i + 1))
                 task_.maybeDeclared.insert(names_.intern(tree->text(i)));

@@ -182,6 +182,15 @@ std::string_view gapBefore(const SyntaxTree& tree, TokenIndex token) {
     return tree.source->text().substr(begin, tree.tokens[token].offset - begin);
 }
 
+TokenIndex typeTokenOf(const Node& declaration) {
+    switch (declaration.kind) {
+    case NodeKind::Data: return as<DataDecl>(declaration).type;
+    case NodeKind::Param: return as<ParamDecl>(declaration).type;
+    case NodeKind::Routine: return as<RoutineDecl>(declaration).returnType;
+    default: return kNoToken;
+    }
+}
+
 std::string_view leadingTrivia(const SyntaxTree& tree, const Node& node) {
     if (node.first == kNoToken) return {};
     const std::string_view gap = gapBefore(tree, node.first);

@@ -20,6 +20,9 @@ bool isExpr(NodeKind kind);
 bool isStmt(NodeKind kind);
 bool isDecl(NodeKind kind);
 
+/// The word for the data type in a declaration of data, of a parameter or of a function; kNoToken: it has none.
+TokenIndex typeTokenOf(const Node& declaration);
+
 /// White space and comments before the first token of a node, without the rest of the line on which the token before
 /// it ends: a comment there belongs to that line. Documentation comments (`!!`, `!@`) are found here.
 std::string_view leadingTrivia(const SyntaxTree& tree, const Node& node);

@@ -251,6 +251,12 @@ std::string Debugger::refusal(const Task& task) const {
     return "";
 }
 
+bool Debugger::isAtFaultyStatement(const Task& task) {
+    if (task.standing() != Standing::AtError || task.frame == nullptr) return false;
+    const StmtDesc* statement = statementOf(*task.frame);
+    return statement != nullptr && statement->canStart != 0;
+}
+
 /// The other NORMAL tasks execute until the one is halted again, and those in the background that a breakpoint stopped.
 void Debugger::resumeOthers(const Task& task) {
     for (const auto& other : host_.tasks()) {
@@ -274,7 +280,8 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
         }
     }
     state.mode = mode;
-    state.passFirst = task.stopCause() == StopCause::AtMain && mode != Mode::Cursor;
+    state.passFirst = (task.stopCause() == StopCause::AtMain || isAtFaultyStatement(task)) && forward &&
+                      mode != Mode::Cursor;
     state.depth = steppingDepthOf(state.standing != nullptr ? state.standing : task.frame);
     task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
     if (!alone) resumeOthers(task);
@@ -370,16 +377,17 @@ std::string Debugger::runToLine(Task& task, std::string_view where, uint32_t lin
 std::string Debugger::pointerToLine(Task& task, uint32_t line) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
     State& state = stateOf(task);
+    Frame* at = state.standing == nullptr && isAtFaultyStatement(task) ? task.frame : state.standing;
     // Activations that are about to be left, after a move to another routine, have no program pointer any more.
-    if (state.standing == nullptr || task.isUnwinding())
+    if (at == nullptr || task.isUnwinding())
         return "the task is not stopped before an instruction: step it first";
-    const RoutineDesc& routine = *state.standing->routine;
+    const RoutineDesc& routine = *at->routine;
     for (uint32_t s = 0; s < routine.statementCount; ++s) {
         const StmtDesc& statement = routine.statements[s];
         if (statement.canStart == 0 || statement.line != line) continue;
         if ((statement.flags & (kStmtInBackward | kStmtInHandler)) != 0)
             return "the program pointer cannot be moved into a handler";
-        state.standing->statement = static_cast<int32_t>(s);
+        at->statement = static_cast<int32_t>(s);
         state.backwardLast = false;
         state.backwardFrame = nullptr;
         task.notePointerMoved(false);

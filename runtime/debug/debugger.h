@@ -154,7 +154,7 @@ class Debugger final : public StepHook {
     enum class Mode : uint8_t { Run, In, Over, Out, Move, Cursor, Backward, Line, LineInto, Pause };
     struct State {
         Mode mode = Mode::Run;
-        bool passFirst = false;  ///< the program pointer is at main: the first statement is the one stepped
+        bool passFirst = false;  ///< the first statement, at main or at an error, is the one stepped
         bool entry = false;      ///< this stop is the one before the first statement
         std::size_t depth = 0;   ///< frames when the order was given
         std::string cursorPlace; ///< run to cursor
@@ -180,6 +180,8 @@ class Debugger final : public StepHook {
     void stopAll(Task& task);
     Status standStill(Task& task, StopReason reason);
     bool isHeldHere(const Task& task) const;
+    /// Stopped by an error of the statement at the program pointer, which is executed again.
+    static bool isAtFaultyStatement(const Task& task);
     void resumeOthers(const Task& task);
     int32_t stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason);
     static int32_t continueAt(State& state, const Frame* at, int32_t here);

@@ -616,6 +616,27 @@ class Configuration(Language):
         self.assertIn("SignalType", hover["contents"]["value"])
 
 
+class ProgramFiles(Language):
+    """Issue 19: completion and definition in .pgf: the modules beside it that it does not list yet; an entry leads to its file."""
+
+    def test_modules_of_a_program_file(self):
+        program = "<?xml version=\"1.0\"?>\n<Program>\n<Module>cell.modx</Module>\n<Module></Module>\n<Module>pa</Module>\n</Program>\n"
+        part = self.write("part.mod", "MODULE part\nENDMODULE\n")
+        self.write("notes.txt", "")
+        document = self.client.open(self.write("p.pgf", program), program)
+        for word, offset in (("<Module></", 8), (">pa<", 3)):
+            found = self.client.request("textDocument/completion", at(document, program, word, offset=offset))["items"]
+            self.assertEqual([i["label"] for i in found], ["part.mod"])
+        self.assertEqual(edited(program, [found[0]["textEdit"]]), program.replace(">pa<", ">part.mod<"))
+        outside = self.client.request("textDocument/completion", at(document, program, "<Program>", offset=9))
+        self.assertEqual(outside["items"], [])
+        self.assertEqual([f["uri"] for f in self.client.request("textDocument/definition", at(document, program, "cell"))],
+                         [self.document])
+        self.client.change(document, 2, program.replace(">pa<", ">part.mod<"))
+        found = self.client.request("textDocument/definition", at(document, program, ">pa<", offset=2))
+        self.assertEqual([f["uri"] for f in found], [uri(part)])
+
+
 class FileOperations(Language):
     def test_renaming_the_file_of_a_module(self):
         program = '<?xml version="1.0" encoding="ISO-8859-1" ?>\n<Program>\n\t<Module>cell.modx</Module>\n</Program>\n'
@@ -627,6 +648,24 @@ class FileOperations(Language):
         self.assertEqual(edited(program, edit[uri(path)]), program.replace("cell.modx", "station.modx"))
         self.assertIsNone(self.client.request("workspace/willRenameFiles", {"files": [
             {"oldUri": "file:///x/a.txt", "newUri": "file:///x/b.txt"}]}))
+
+    def test_renaming_a_file_of_a_backup(self):
+        """The list of a backup names its modules with their folder, by task: only the line of this file follows."""
+        module = "MODULE pick\n  PROC main()\n  ENDPROC\nENDMODULE\n"
+        path = self.write("cell/RAPID/TASK1/PROGMOD/pick.mod", module)
+        for other in ("TASK1/SYSMOD", "TASK2/PROGMOD"):
+            self.write(f"cell/RAPID/{other}/pick.mod", module)
+        lines = [">>TASK1: (T_ROB1,,)", "SYSMOD\\pick.mod @ ", "PROGMOD\\PICK.MOD @ pick.mod",
+                 ">>TASK2: (T_BACK,,)", "PROGMOD\\pick.mod @ ", ">>EOF:", ""]
+        text = "\r\n".join(lines)
+        listed = self.write("cell/BACKINFO/backinfo.txt", text)
+        client = self.connect()
+        client.initialize([os.path.join(self.work(), "cell")])
+        new = os.path.join(os.path.dirname(path), "place.mod")
+        edit = changes_of(client.request("workspace/willRenameFiles",
+                                         {"files": [{"oldUri": uri(path), "newUri": uri(new)}]}))
+        lines[2] = "PROGMOD\\place.mod @ place.mod"
+        self.assertEqual(edited(text, edit[uri(listed)]), "\r\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -1,12 +1,20 @@
-// Completion, hover, definition and references in configuration files (.cfg), and the way from them to RAPID.
+// Completion, hover, definition and references in configuration files (.cfg), and the way from them to RAPID; the modules that
+// a program file (.pgf) lists.
 
 #include "config/json_text.h"
+#include "config/text_util.h"
 #include "frontend/project/files.h"
 #include "frontend/query/config_queries.h"
+#include "frontend/query/links.h"
 #include "tools/lsp/json_of_answers.h"
 #include "tools/lsp/requests.h"
 
+#include <algorithm>
+#include <filesystem>
+
 namespace lsp {
+
+namespace fs = std::filesystem;
 
 namespace query = rapid::query;
 
@@ -20,9 +28,52 @@ const query::Snapshot* snapshotOf(State& state, const Target& target) {
     return owner ? &state.snapshot(*owner) : nullptr;
 }
 
+bool isProgramFile(const Target& target) {
+    return rapid::project::extensionOf(target.path) == ".pgf";
+}
+
+/// The entry of a program file at the offset; its path may be empty.
+std::optional<query::FileLink> entryAt(const Target& target) {
+    for (query::FileLink& link : query::programFileLinks(target.positions->file().text()))
+        if (link.range.begin <= target.offset && target.offset <= link.range.end) return std::move(link);
+    return std::nullopt;
+}
+
+/// The modules beside a program file that it does not list yet.
+query::CompletionList programFileCompletion(const Target& target) {
+    query::CompletionList list;
+    const auto entry = entryAt(target);
+    if (!entry) return list;
+    list.replace = entry->range;
+    const auto links = query::programFileLinks(target.positions->file().text());
+    for (const fs::path& file : rapid::project::entries(fs::path(target.path).parent_path())) {
+        const std::string name = file.filename().string();
+        const bool listed = std::any_of(links.begin(), links.end(), [&](const query::FileLink& link) {
+            return rapid::config::sameName(link.path, name) && link.range != entry->range;
+        });
+        if (!rapid::project::isModule(file) || listed) continue;
+        query::CompletionItem item;
+        item.label = item.insertText = name;
+        item.kind = query::ItemKind::Module;
+        list.items.push_back(std::move(item));
+    }
+    return list;
+}
+
+Json programFileDefinition(State& state, const Target& target) {
+    std::vector<query::Location> found;
+    if (const auto entry = entryAt(target); entry && !entry->path.empty()) {
+        const fs::path path = rapid::project::findPath(fs::path(target.path).parent_path(), entry->path);
+        if (const auto file = path.empty() ? nullptr : state.workspace.read(path.string()))
+            found.push_back({file, {}, {}});
+    }
+    return toJson(state, found);
+}
+
 } // namespace
 
 Json configurationCompletion(State& state, const Target& target) {
+    if (isProgramFile(target)) return toJson(state, target, programFileCompletion(target));
     query::CompletionList list;
     if (const query::Snapshot* snapshot = snapshotOf(state, target))
         list = query::configCompletionAt(*snapshot, target.positions->file(), target.offset);
@@ -37,6 +88,7 @@ Json configurationHover(State& state, const Target& target) {
 }
 
 Json configurationDefinition(State& state, const Target& target) {
+    if (isProgramFile(target)) return programFileDefinition(state, target);
     const query::Snapshot* snapshot = snapshotOf(state, target);
     if (!snapshot) return Json::array();
     return toJson(state, query::configDefinitionAt(*snapshot, target.positions->source(), target.offset));

@@ -72,6 +72,30 @@ void renameMentions(State& state, const fs::path& from, const fs::path& to, File
     }
 }
 
+/// The line of the module's task in the list of a backup: `PROGMOD/main.mod @ main.mod` below `>>TASK1: (T_ROB1,,)`.
+void renameListed(State& state, const fs::path& from, const fs::path& to, FileEdits& out) {
+    const fs::path folder = from.parent_path(), task = folder.parent_path();
+    const fs::path list = rapid::project::findPath(task.parent_path().parent_path(), "BACKINFO/backinfo.txt");
+    const auto file = list.empty() ? nullptr : state.workspace.read(list.string());
+    if (!file) return;
+    const std::string section = rapid::config::upperCase(">>" + task.filename().string() + ":");
+    const std::string module = rapid::config::upperCase((folder.filename() / from.filename()).string());
+    std::vector<TextEdit> edits;
+    bool inSection = false;
+    for (size_t begin = 0; begin < file->text().size();) {
+        const size_t end = std::min(file->text().find_first_of("\r\n", begin), file->text().size());
+        std::string line = rapid::config::upperCase(file->text().substr(begin, end - begin));
+        std::replace(line.begin(), line.end(), '\\', '/');
+        line = rapid::config::trimmed(line);
+        if (line.starts_with(">>")) inSection = line.starts_with(section);
+        if (inSection && rapid::config::trimmed(line.substr(0, line.find('@'))) == module)
+            for (TextEdit edit : renamedIn(*file, from.filename().string(), to.filename().string()))
+                if (edit.range.begin >= begin && edit.range.end <= end) edits.push_back(std::move(edit));
+        begin = end + 1;
+    }
+    if (!edits.empty()) out.push_back({file, std::move(edits)});
+}
+
 } // namespace
 
 Json willRenameFiles(State& state, const Json& params) {
@@ -81,6 +105,7 @@ Json willRenameFiles(State& state, const Json& params) {
         if (!from || !to || !rapid::project::isModule(*from) || !rapid::project::isModule(*to)) continue;
         renameModule(state, *from, *to, edits);
         renameMentions(state, *from, *to, edits);
+        renameListed(state, *from, *to, edits);
     }
     if (edits.empty()) return nullptr;
     return state.workspaceEdit(edits);

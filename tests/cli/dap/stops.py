@@ -89,6 +89,21 @@ def test_error_again(a):
     a.stopped("exception", UNHANDLED)
 
 
+def test_step_and_goto_after_an_error(a):
+    """Contract 5: after a stop the faulty instruction is executed again, by a step, too: it stops with the error, not before. Goto: the
+    program pointer leaves the faulty instruction, which is not executed."""
+    a.start("errors.modx", filters=["unhandled"])
+    a.stopped("exception", UNHANDLED)
+    for request in ("next", "stepIn"):
+        a.go(request)
+        a.stopped("exception", UNHANDLED)
+    target = a.ask("gotoTargets", source={"path": path("errors.modx")}, line=UNHANDLED + 1)["targets"][0]
+    a.go("goto", targetId=target["id"])
+    a.stopped("goto", UNHANDLED + 1)
+    a.go()
+    equal(a.run_out(), ["in handler", "next", "share 0"])
+
+
 def test_every_error(a):
     a.start("errors.modx", filters=["all", "unhandled"])
     a.stopped("exception", HANDLED, "handled")

@@ -48,6 +48,17 @@ TEST_CASE("query: hover shows declarations as they are written", "[query][hover]
     CHECK(hover(program, 9).range == SourceRange{program.offset(9) - 2, program.offset(9) + 3});
 }
 
+// Contract item 10: the declaration is shown, also with a data type that the program does not have.
+TEST_CASE("query: hover names a data type that is not known", "[query][hover]") {
+    const Program program(
+        {"MODULE m\nRECORD pair\nnum a;\ngone b;\nENDRECORD\nVAR gone da$1ta{2};\nVAR pa$4ir "
+         "p;\nPROC wo$2rk(gone x{*})\nENDPROC\nFUNC gone ma$3de()\nENDFUNC\nENDMODULE\n"});
+    CHECK(hover(program, 1).declaration == "VAR gone data{2}");
+    CHECK(hover(program, 2).declaration == "PROC work(gone x{*})");
+    CHECK(hover(program, 3).declaration == "FUNC gone made()");
+    CHECK(hover(program, 4).declaration == "RECORD pair\n   num a;\n   gone b;\nENDRECORD");
+}
+
 TEST_CASE("query: hover evaluates constants and shows points as tables", "[query][hover]") {
     const Program program({inMain(
         "x:=lim$1it;\nMoveL p$2,v100,fine,tool0;\nMoveAbsJ j$3,v100,fine,tool0;\nRAISE ERR_DIV$4ZERO;\n"

@@ -101,6 +101,18 @@ TEST_CASE("query: calls by name lead to the procedures they may mean", "[query][
     CHECK(definition(p, 1) == Lines{"t1_1.modx:3 proc1"});
 }
 
+// Manual 1.1.5: the string is a name as it would stand in a call, and MODULE:NAME is that of a procedure of the module.
+TEST_CASE("query: a call by name with a module leads to its procedure only", "[query][navigation]") {
+    const Program p({"MODULE m\nPROC work()\nENDPROC\nPROC main()\n%\"Other:wo$1rk\"%;\n%\"gone:wo$2rk\"%;\n"
+                     "ENDPROC\nENDMODULE\n",
+                     "MODULE other\nLOCAL PROC idle()\nENDPROC\nPROC work()\nENDPROC\nENDMODULE\n"});
+    const auto implementation = [&](int m) {
+        return show(implementationAt(p.snapshot(), p.file(m), p.offset(m)));
+    };
+    CHECK(implementation(1) == Lines{"t1_2.modx:4 work"});
+    CHECK(implementation(2).empty());
+}
+
 TEST_CASE("query: references of all tasks; a shared persistent is one", "[query][navigation]") {
     const std::string shared = "MODULE shared(SYSMODULE)\nPERS num common:=0;\nENDMODULE\n";
     const Program p = Program::ofTasks({{"MODULE a\nPERS num speed:=1;\nVAR num own;\nPROC "

@@ -199,6 +199,18 @@ TEST_CASE("query: add the handlers that a routine lacks, in their order", "[quer
     contains(after(all, "Add BACKWARD handler"), "TPErase;\nBACKWARD\n");
 }
 
+// Issue 19, code actions: "add missing handler". It is missed where an instruction can fail, so it is offered there, too.
+TEST_CASE("query: an instruction offers the ERROR handler that its routine lacks", "[query][refactoring]") {
+    const Program p(
+        {"MODULE m\n   VAR num n$3;\n   PROC main()\n      Lo$1ad \"x.mod\";\n   ENDPROC\n   PROC "
+         "safe()\n      Lo$2ad \"x.mod\";\n   ERROR\n      RETURN;\n   ENDPROC\nENDMODULE\n"});
+    CHECK(titles(p, "add-handler", 1) == Lines{"Add ERROR handler"});
+    contains(after(p, "Add ERROR handler"),
+             "Load \"x.mod\";\n   ERROR\n      RAISE;\n   ENDPROC\n   PROC safe");
+    CHECK(titles(p, "add-handler", 2).empty());
+    CHECK(titles(p, "add-handler", 3).empty());
+}
+
 // Issue 19, code actions: "teach values into PERS". A value that is written out gets a name; PERS, so that ModPos can change it.
 TEST_CASE("query: a value that is written out becomes data", "[query][refactoring]") {
     const Program p({"MODULE m\nCONST robtarget "
