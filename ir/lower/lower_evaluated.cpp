@@ -5,8 +5,12 @@
 
 namespace rapid::lower {
 
+using namespace syntax;
+using sema::BoundArg;
+using sema::BoundCall;
+
 bool EvaluatedCalls::covers(const sema::RoutineSymbol& callee) const {
-    return evaluate_ && callee.native && callee.routineKind == syntax::RoutineKind::Func &&
+    return evaluate_ && callee.native && callee.routineKind == RoutineKind::Func &&
            (callee.effects == sema::Effects::Const || callee.effects == sema::Effects::Pure);
 }
 

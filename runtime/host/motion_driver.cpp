@@ -5,6 +5,7 @@
 #include "runtime/motion/motor_side.h"
 #include "runtime/motion/path.h"
 #include "runtime/sched/error_search.h"
+#include "runtime/sched/step_hook.h"
 #include "runtime/sched/task.h"
 #include "runtime/sim/trace_sink.h"
 

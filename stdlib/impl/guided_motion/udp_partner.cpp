@@ -3,6 +3,7 @@
 #include "stdlib/impl/guided_motion/egm_messages.h"
 
 #include "runtime/log/event_log.h"
+#include "runtime/sched/scheduler.h"
 
 #include <fmt/format.h>
 
