@@ -19,7 +19,6 @@ struct sigaction previousAlarm;
 timer_t patienceTimer;
 itimerspec patienceTime;
 volatile std::sig_atomic_t isPatienceLimited = 0;
-constexpr int kSignalStatus = 128; // what a shell adds to the number of the signal
 
 void killBy(int signal) {
     std::signal(signal, SIG_DFL);
@@ -38,7 +37,7 @@ extern "C" void noteSignal(int signal) {
 extern "C" void endWithoutOrder(int /*signal*/) {
     constexpr std::string_view kMessage = "rapidc: ended while work was in progress\n";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
-    _exit(kSignalStatus + noted);
+    _exit(StopSignals::kStatus + noted);
 }
 
 void limitPatience(std::chrono::milliseconds patience) {

@@ -10,7 +10,9 @@ namespace rt {
 /// process at once. Signals that the process was started to ignore (nohup) stay ignored. One object at a time.
 class StopSignals {
   public:
-    /// With a `patience` above 0 the process ends with status 128 + number of the signal when this object still lives
+    static constexpr int kStatus = 128; ///< a shell adds it to the number of the signal that ended a process
+
+    /// With a `patience` above 0 the process ends with kStatus + number of the signal when this object still lives
     /// that long after the first signal: a compilation in progress does not look at received().
     explicit StopSignals(std::chrono::milliseconds patience = std::chrono::milliseconds{0});
     ~StopSignals();

@@ -157,14 +157,6 @@ Status Task::propagateFrom(Frame* handler) {
     const int number = errorNumber;
     Frame* const caller = handler->caller;
     const bool detached = handler->routine->isDetachedHandler != 0;
-    if (raisesAsUsual() && !detached) { // as dispatchError would
-        const ErrorRoute route = routeFromCall(caller, number);
-        if (route.handler != nullptr && !route.longJump) {
-            frame = handler;
-            noteHandled(route.handler, number);
-            return number;
-        }
-    }
     while (true) {
         frame = handler;
         const Status status =
@@ -176,6 +168,10 @@ Status Task::propagateFrom(Frame* handler) {
 /// `from`: where the search for a handler began. Kept short for the error that a handler takes; the rest lies apart.
 Status Task::dispatchError(const ErrorRoute& route, int number, const Frame* from) {
     errorNumber = number;
+    if (raisesAsUsual() && route.handler != nullptr && !route.longJump) { // the questions below are answered
+        noteHandled(route.handler, number);
+        return number;
+    }
     if (unwinding_ == Unwind::Abandon || undoAborted_) return silentStatus();
     if (guide_ != nullptr) return guide_->failed(*this);
     bool backward = false;                       // no handler then (manual 1.21)
@@ -437,9 +433,9 @@ void Task::resetRetryCount() {
 }
 
 /// The warning waits until the handler is left, because SkipWarn in it may take it back.
-inline bool Task::isInside(const HandledError& handled) const {
+bool Task::isInside(const HandledError& handled) const {
     const auto isHandled = [&handled](const Detached& handler) { return handler.user == handled.frame; };
-    if (!detached_.empty() && std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
+    if (std::any_of(detached_.begin(), detached_.end(), isHandled)) return true;
     const bool inProgress = handled.frame == frame || isInProgress(frame, handled.frame);
     return inProgress && handled.frame->routine == handled.routine && inHandler(*handled.frame);
 }

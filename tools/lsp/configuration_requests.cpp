@@ -32,24 +32,31 @@ bool isProgramFile(const Target& target) {
     return rapid::project::extensionOf(target.path) == ".pgf";
 }
 
-/// The entry of a program file at the offset; its path may be empty.
-std::optional<query::FileLink> entryAt(const Target& target) {
-    for (query::FileLink& link : query::programFileLinks(target.positions->file().text()))
-        if (link.range.begin <= target.offset && target.offset <= link.range.end) return std::move(link);
-    return std::nullopt;
+using Entries = std::vector<query::FileLink>;
+
+Entries entriesOf(const Target& target) {
+    return query::programFileLinks(target.positions->file().text());
+}
+
+/// The entry of a program file at the offset, whose path may be empty; null: none.
+const query::FileLink* entryAt(const Entries& entries, uint32_t offset) {
+    const auto found = std::find_if(entries.begin(), entries.end(), [offset](const query::FileLink& entry) {
+        return entry.range.begin <= offset && offset <= entry.range.end;
+    });
+    return found != entries.end() ? &*found : nullptr;
 }
 
 /// The modules beside a program file that it does not list yet.
 query::CompletionList programFileCompletion(const Target& target) {
     query::CompletionList list;
-    const auto entry = entryAt(target);
-    if (!entry) return list;
+    const Entries listing = entriesOf(target);
+    const query::FileLink* const entry = entryAt(listing, target.offset);
+    if (entry == nullptr) return list;
     list.replace = entry->range;
-    const auto links = query::programFileLinks(target.positions->file().text());
     for (const fs::path& file : rapid::project::entries(fs::path(target.path).parent_path())) {
         const std::string name = file.filename().string();
-        const bool listed = std::any_of(links.begin(), links.end(), [&](const query::FileLink& link) {
-            return rapid::config::sameName(link.path, name) && link.range != entry->range;
+        const bool listed = std::any_of(listing.begin(), listing.end(), [&](const query::FileLink& other) {
+            return rapid::config::sameName(other.path, name) && &other != entry;
         });
         if (!rapid::project::isModule(file) || listed) continue;
         query::CompletionItem item;
@@ -62,7 +69,9 @@ query::CompletionList programFileCompletion(const Target& target) {
 
 Json programFileDefinition(State& state, const Target& target) {
     std::vector<query::Location> found;
-    if (const auto entry = entryAt(target); entry && !entry->path.empty()) {
+    const Entries listing = entriesOf(target);
+    const query::FileLink* const entry = entryAt(listing, target.offset);
+    if (entry != nullptr && !entry->path.empty()) {
         const fs::path path = rapid::project::findPath(fs::path(target.path).parent_path(), entry->path);
         if (const auto file = path.empty() ? nullptr : state.workspace.read(path.string()))
             found.push_back({file, {}, {}});

@@ -101,7 +101,7 @@ TEST_CASE("query: calls by name lead to the procedures they may mean", "[query][
     CHECK(definition(p, 1) == Lines{"t1_1.modx:3 proc1"});
 }
 
-// Manual 1.1.5: the string is a name as it would stand in a call, and MODULE:NAME is that of a procedure of the module.
+// Manual 1.1.5: the string contains a procedure name as written in a call; MODULE:NAME means the procedure of that module.
 TEST_CASE("query: a call by name with a module leads to its procedure only", "[query][navigation]") {
     const Program p({"MODULE m\nPROC work()\nENDPROC\nPROC main()\n%\"Other:wo$1rk\"%;\n%\"gone:wo$2rk\"%;\n"
                      "ENDPROC\nENDMODULE\n",

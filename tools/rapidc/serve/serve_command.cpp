@@ -16,7 +16,6 @@ namespace rapidc {
 
 namespace {
 
-constexpr int kSignalStatus = 128; ///< what a shell adds to the number of the signal
 /// Clients count on an end within 2 s of the signal, even when a large program is being compiled.
 constexpr std::chrono::milliseconds kPatience{1700};
 
@@ -51,7 +50,8 @@ int serveInputs(serve::ServeSettings& settings) {
     }
     folders.clear();
     // A service ends by itself: the first process of a container cannot be ended by a signal that it does not handle.
-    if (const int received = rt::StopSignals::received(); received != 0) return kSignalStatus + received;
+    if (const int received = rt::StopSignals::received(); received != 0)
+        return rt::StopSignals::kStatus + received;
     return static_cast<int>(status);
 }
 
