@@ -162,13 +162,17 @@ void Analyzer::checkFiles() {
     checkModules(state_.task.task->modules);
 }
 
-void Analyzer::checkModules(std::span<Module* const> modules) {
+void Analyzer::resolveDeclarations(std::span<Module* const> modules) {
     for (Module* module : modules)
         for (TypeSymbol* type : module->types)
             types_.ensureType(*type);
     for (Module* module : modules)
         for (RoutineSymbol* routine : module->routines)
             types_.resolveSignature(*routine);
+}
+
+void Analyzer::checkModules(std::span<Module* const> modules) {
+    resolveDeclarations(modules);
     TaskContext& task = state_.task;
     task.isLoose =
         task.comparisonsLeft + task.elsewhere.comparisons != kMaxComparisons || !task.unknownNames.empty();

@@ -51,6 +51,11 @@ class Analyzer {
     Likeness replaceTree(size_t file, std::unique_ptr<syntax::SyntaxTree> tree, bool broken);
     /// Checks some files again while the facts about the others stay. `elsewhere`: what others are taken to have spent.
     void recheckFiles(std::span<const size_t> files, Spent elsewhere = {});
+    /// Declarations of a changed file, and the bodies of the routines around `offset` only; a check of the file has to follow.
+    void sketchFile(size_t file, uint32_t offset);
+    /// Counts the predefined names that a file uses as used until releaseUses(), though its facts are dropped. Before replaceTree().
+    std::vector<Symbol*> holdUses(size_t file);
+    void releaseUses(std::span<Symbol* const> held);
     /// Whether a changed file can be checked alone although others are `open`. Not when these share reports or signals.
     bool allowsAlone() const;
     /// Before replaceTree().
@@ -76,13 +81,16 @@ class Analyzer {
     void setMissingModules(const TaskInput& input);
     /// A task that may lack its entry routine, and does, is not part of the program.
     bool leaveOut(const TaskInput& input);
+    void resolveDeclarations(std::span<Module* const> modules);
     void checkModules(std::span<Module* const> modules);
     /// `said`: how much had been reported before.
     void finishFile(std::span<Module* const> modules, size_t said);
     void listSignals();
     void dropFacts(std::span<const size_t> files);
     void renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> symbols);
+    std::vector<Module*> declareAgain(std::span<const size_t> files);
     void clearLooseEnds();
+    void findBrokenTrees();
     Spent spentBy(size_t files) const;
 
     State state_;

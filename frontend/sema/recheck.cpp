@@ -118,11 +118,15 @@ void Analyzer::clearLooseEnds() {
     state_.task.reportedNames.clear();
     state_.task.maybeDeclared.clear();
     state_.task.nameLists.reset();
+    findBrokenTrees();
+    state_.task.elsewhere = {};
+    state_.task.comparisonsLeft = kMaxComparisons;
+}
+
+void Analyzer::findBrokenTrees() {
     state_.task.brokenTrees.clear();
     for (const TaskFile& file : state_.task.files)
         if (file.broken) state_.task.brokenTrees.push_back(state_.program.trees[file.slot].get());
-    state_.task.elsewhere = {};
-    state_.task.comparisonsLeft = kMaxComparisons;
 }
 
 Analyzer::Likeness Analyzer::replaceTree(size_t index, std::unique_ptr<SyntaxTree> tree, bool broken) {
@@ -176,7 +180,8 @@ void Analyzer::renewFacts(const TaskFile& file, std::shared_ptr<FileSymbols> sym
     }
 }
 
-void Analyzer::recheckFiles(std::span<const size_t> files, Spent elsewhere) {
+// The declarations of files as their trees have them now, without their types. Returns their modules.
+std::vector<Module*> Analyzer::declareAgain(std::span<const size_t> files) {
     dropFacts(files);
     std::vector<Module*> modules;
     std::vector<NameMap<Symbol>> earlier;
@@ -199,14 +204,68 @@ void Analyzer::recheckFiles(std::span<const size_t> files, Spent elsewhere) {
         renewFacts(file, old.symbols);
         state_.program.facts[file.slot]->signalUses = uses;
     }
+    for (size_t i = 0; i < modules.size(); ++i)
+        collector_.collectAgain(*modules[i], earlier[i]);
+    return modules;
+}
+
+void Analyzer::recheckFiles(std::span<const size_t> files, Spent elsewhere) {
     clearLooseEnds();
     state_.task.elsewhere = elsewhere;
     state_.task.comparisonsLeft -= std::min(state_.task.comparisonsLeft, elsewhere.comparisons);
-    for (size_t i = 0; i < modules.size(); ++i) {
-        collector_.collectAgain(*modules[i], earlier[i]);
-    }
+    const std::vector<Module*> modules = declareAgain(files);
     collector_.checkModuleNames(modules);
     checkModules(modules);
+}
+
+namespace {
+
+/// The routines of a module whose text an offset can concern: in a text that is being typed a routine may have lost its end.
+std::span<RoutineSymbol* const> routinesAround(const Module& module, uint32_t offset) {
+    const std::span<RoutineSymbol* const> all = module.routines;
+    const auto next = std::partition_point(all.begin(), all.end(), [&](const RoutineSymbol* routine) {
+        return module.tree->range(*routine->decl).begin <= offset;
+    });
+    const size_t end = static_cast<size_t>(next - all.begin());
+    const size_t first = end < 2 ? 0 : end - 2;
+    return all.subspan(first, std::min(all.size(), end + 1) - first);
+}
+
+} // namespace
+
+// What the task shares stays as the last check has left it, and the next one clears it: names of signals that are known by
+// use are completed as well.
+void Analyzer::sketchFile(size_t file, uint32_t offset) {
+    const size_t slot = state_.task.files[file].slot;
+    const Spent spent = state_.program.facts[slot]->spent; // it counts as it was until the file is checked
+    const std::vector<Module*> modules = declareAgain(std::span<const size_t>(&file, 1));
+    state_.program.facts[slot]->spent = spent;
+    findBrokenTrees();
+    state_.task.nameLists.reset();
+    resolveDeclarations(modules);
+    for (Module* module : modules) {
+        state_.enterModule(module);
+        for (DataSymbol* data : module->data)
+            data_.ensureValue(*data);
+        for (RoutineSymbol* routine : routinesAround(*module, offset))
+            routines_.checkRoutine(*routine);
+    }
+    state_.task.unknownNames.clear();
+    state_.reports.forgetMisfits();
+}
+
+std::vector<Symbol*> Analyzer::holdUses(size_t file) {
+    std::vector<Symbol*> held;
+    for (Symbol* symbol : state_.program.facts[state_.task.files[file].slot]->used)
+        if (symbol->predefined) held.push_back(symbol); // others may go with the facts
+    for (Symbol* symbol : held)
+        ++symbol->users;
+    return held;
+}
+
+void Analyzer::releaseUses(std::span<Symbol* const> held) {
+    for (Symbol* symbol : held)
+        symbol->used = --symbol->users > 0;
 }
 
 bool Analyzer::allowsAlone() const {

@@ -35,6 +35,23 @@ bool pointsInto(const Diagnostics& diagnostics, const std::shared_ptr<const Sour
     });
 }
 
+/// How a changed file is checked.
+struct CheckPlan {
+    bool isMade = false;
+    bool alone = true;    ///< others need not be checked because of its declarations
+    bool isNamed = false; ///< in a message about another file
+    std::vector<size_t> dirty;
+    std::optional<FileOffer> offer; ///< before the change, while files that are `open` might be left alone
+    Analyzer::Likeness likeness = Analyzer::Likeness::WithLocals;
+    std::vector<Symbol*> held; ///< see Analyzer::holdUses
+};
+
+/// A change whose check is not finished.
+struct Sketched {
+    size_t task = 0, file = 0;
+    CheckPlan plan;
+};
+
 } // namespace
 
 struct Session::State {
@@ -54,8 +71,19 @@ struct Session::State {
     Diagnostics libraryDiagnostics;
     std::vector<SessionTask> tasks;
     Diagnostics across;
+    std::optional<Sketched> sketched;
 
     void openTask(TaskInput input);
+    /// Takes the text of a file; the task has been entered. `earlier`: the plan of a change of this file that has not been checked.
+    CheckPlan takeTree(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file,
+                       CheckPlan earlier);
+    /// Checks what a change concerns.
+    void carryOut(SessionTask& task, size_t index, CheckPlan plan);
+    bool sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset);
+    void complete();
+    /// Completes a sketch of another file.
+    void completeUnless(const std::string& path);
+    /// What is sketched, if anything, is this file.
     void change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file);
     void checkAcross();
     /// The last step of a check of a task, and what it reports about the whole.
@@ -98,49 +126,56 @@ void Session::State::openTask(TaskInput input) {
     finish(task);
 }
 
-void Session::State::change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file) {
+CheckPlan Session::State::takeTree(SessionTask& task, size_t index,
+                                   const std::shared_ptr<const SourceFile>& file, CheckPlan earlier) {
     SessionFile& changed = task.files[index];
     const std::shared_ptr<const SourceFile> before = changed.source;
-    analyzer->enterTask(std::move(task.scope));
     syntax::ParseOptions parsing;
     parsing.earlier = program->trees[analyzer->task().files[index].slot].get();
     auto tree = syntax::parse(file, sink, parsing);
     const bool broken = sink.hasErrors();
     changed.parsed = sink.take();
     changed.source = file;
+    CheckPlan plan = std::move(earlier);
     const bool dependedOnOrder = analyzer->task().dependsOnOrder;
     const auto isOpen = [&](size_t i) { return program->facts[analyzer->task().files[i].slot]->open; };
     bool othersOpen = false;
     for (size_t i = 0; i < task.files.size(); ++i)
         othersOpen = othersOpen || (i != index && isOpen(i));
-    std::optional<FileOffer> offer; // while the others might be left alone
-    if (othersOpen && analyzer->allowsAlone()) offer = analyzer->offerOf(index);
-    const Analyzer::Likeness likeness = analyzer->replaceTree(index, std::move(tree), broken);
-    const bool alone = likeness != Analyzer::Likeness::None && !dependedOnOrder;
-    std::vector<size_t> dirty;
-    bool isDone = false;
-    bool isNamed = false; // in a message about another file
+    if (!plan.isMade && othersOpen && analyzer->allowsAlone()) plan.offer = analyzer->offerOf(index);
+    if (!plan.isMade) plan.held = analyzer->holdUses(index);
+    plan.likeness = std::min(plan.likeness, analyzer->replaceTree(index, std::move(tree), broken));
+    plan.isMade = true;
+    plan.alone = plan.likeness != Analyzer::Likeness::None && !dependedOnOrder;
+    plan.dirty.clear();
     for (size_t i = 0; i < task.files.size(); ++i) {
         const bool names = i != index && pointsInto(task.files[i].checked, before);
-        isNamed = isNamed || names;
-        if (i == index || !alone || isOpen(i) || names) dirty.push_back(i);
+        plan.isNamed = plan.isNamed || names;
+        if (i == index || !plan.alone || isOpen(i) || names) plan.dirty.push_back(i);
     }
-    if (offer && alone && !isNamed && likeness == Analyzer::Likeness::WithLocals && analyzer->allowsAlone()) {
-        isDone = analyzer->recheckAlone(index, *offer);
+    return plan;
+}
+
+void Session::State::carryOut(SessionTask& task, size_t index, CheckPlan plan) {
+    analyzer->releaseUses(plan.held);
+    bool isDone = false;
+    if (plan.offer && plan.alone && !plan.isNamed && plan.likeness == Analyzer::Likeness::WithLocals &&
+        analyzer->allowsAlone()) {
+        isDone = analyzer->recheckAlone(index, *plan.offer);
         if (isDone)
-            dirty = {index};
+            plan.dirty = {index};
         else
             sink.take();
     }
     std::erase_if(task.whole,
                   [](const diag::Diagnostic& d) { return d.code != diag::say::SameFileTwice.code; });
-    for (const size_t i : dirty)
+    for (const size_t i : plan.dirty)
         task.files[i].checked.clear();
-    if (!alone)
+    if (!plan.alone)
         analyzer->recheckTask();
     else if (!isDone)
-        analyzer->recheckFiles(dirty);
-    if (alone && analyzer->task().dependsOnOrder) { // from now on
+        analyzer->recheckFiles(plan.dirty);
+    if (plan.alone && analyzer->task().dependsOnOrder) { // from now on
         sink.take();
         for (SessionFile& each : task.files)
             each.checked.clear();
@@ -148,6 +183,57 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     }
     distribute(task, &SessionFile::checked);
     finish(task);
+}
+
+void Session::State::change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file) {
+    CheckPlan earlier;
+    if (sketched) earlier = std::move(sketched->plan);
+    sketched.reset();
+    analyzer->enterTask(std::move(task.scope));
+    carryOut(task, index, takeTree(task, index, file, std::move(earlier)));
+}
+
+bool Session::State::sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset) {
+    std::optional<Sketched> place;
+    for (size_t t = 0; t < tasks.size(); ++t)
+        for (size_t i = 0; i < tasks[t].files.size(); ++i)
+            if (tasks[t].files[i].source->path() == file->path()) {
+                if (place) return false; // of several tasks
+                place = Sketched{t, i, {}};
+            }
+    if (!place || tasks[place->task].files[place->file].source->isBinary() || file->isBinary()) return false;
+    completeUnless(file->path());
+    SessionTask& task = tasks[place->task];
+    for (std::shared_ptr<const SourceFile>& known : task.input.files)
+        if (known->path() == file->path()) known = file;
+    if (sketched) place->plan = std::move(sketched->plan);
+    sketched.reset();
+    analyzer->enterTask(std::move(task.scope));
+    place->plan = takeTree(task, place->file, file, std::move(place->plan));
+    if (!place->plan.alone || place->plan.isNamed) {
+        carryOut(task, place->file, std::move(place->plan));
+        checkAcross();
+        return true;
+    }
+    analyzer->sketchFile(place->file, offset);
+    sink.take();
+    task.scope = analyzer->leaveTask();
+    sketched = std::move(place);
+    return true;
+}
+
+void Session::State::complete() {
+    if (!sketched) return;
+    Sketched open = std::move(*sketched);
+    sketched.reset();
+    SessionTask& task = tasks[open.task];
+    analyzer->enterTask(std::move(task.scope));
+    carryOut(task, open.file, std::move(open.plan));
+    checkAcross();
+}
+
+void Session::State::completeUnless(const std::string& path) {
+    if (sketched && tasks[sketched->task].files[sketched->file].source->path() != path) complete();
 }
 
 void Session::State::checkAcross() {
@@ -161,6 +247,7 @@ Session::~Session() = default;
 void Session::open(std::vector<TaskInput> tasks) {
     State& s = *state_;
     s.tasks.clear();
+    s.sketched.reset();
     s.analyzer.reset();
     s.program = std::make_unique<CheckedProgram>();
     s.analyzer = std::make_unique<Analyzer>(*s.program, s.options, s.sink);
@@ -177,6 +264,7 @@ void Session::open(std::vector<TaskInput> tasks) {
 }
 
 bool Session::change(const std::shared_ptr<const SourceFile>& file) {
+    state_->completeUnless(file->path());
     bool found = false;
     bool readable = true;
     for (SessionTask& task : state_->tasks) {
@@ -199,6 +287,18 @@ bool Session::change(const std::shared_ptr<const SourceFile>& file) {
             if (task.files[i].source->path() == file->path()) state_->change(task, i, file);
     if (found) state_->checkAcross();
     return found;
+}
+
+bool Session::sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset) {
+    return state_->sketch(file, offset);
+}
+
+void Session::complete() {
+    state_->complete();
+}
+
+bool Session::isComplete() const {
+    return !state_->sketched;
 }
 
 void Session::setGuest(const std::string& guest, const std::string& host) {

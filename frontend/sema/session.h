@@ -27,6 +27,14 @@ class Session {
     /// Takes another text (a SourceFile not used here before) for the file of the same path, in every task that has it. False: no task has such a file.
     bool change(const std::shared_ptr<const SourceFile>& file);
 
+    /// As change(), for an answer about `offset` that cannot wait: of the file all declarations are known then, but bodies of
+    /// routines only around the offset, and diagnostics() are those of before. Everything is checked at once where others can
+    /// see the change. False: the file is not part of exactly one task, use change().
+    bool sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset);
+    /// Checks what sketch() has left out. Nothing, when that is nothing.
+    void complete();
+    bool isComplete() const;
+
     /// Names in the module `guest` of any task mean from now on what they mean in the module `host`, its LOCAL declarations
     /// included. For texts that are looked at as if they stood in the host, such as the expressions of a debugger. Before the
     /// change() that brings the text.

@@ -34,15 +34,30 @@ void Program::fileChanged(const std::string& path) {
 }
 
 bool Program::update() {
+    if (isUpToDate()) return false;
     if (stale_)
         load();
-    else if (!changed_.empty())
-        takeChanges();
     else
-        return false;
+        takeChanges();
+    newGeneration();
+    return true;
+}
+
+bool Program::updateAround(
+    const std::string& path,
+    const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn) {
+    if (stale_ || changed_.size() != 1 || !changed_.contains(path)) return false;
+    const auto file = readChanged(path);
+    if (!file || isSameText(*file) || !session_->sketch(file, offsetIn(file))) return false;
+    changed_.clear();
+    takeText(file);
+    newGeneration();
+    return true;
+}
+
+void Program::newGeneration() {
     static std::atomic<uint64_t> last = 0;
     generation_ = ++last;
-    return true;
 }
 
 void Program::load() {
@@ -90,21 +105,37 @@ void Program::listFiles() {
 }
 
 // Several changes of one file count once; a file that vanished, or is encrypted now, changes the list of files.
+// Null: it is not a text any more, so that everything has to be loaded again.
+std::shared_ptr<const SourceFile> Program::readChanged(const std::string& path) const {
+    std::string bytes;
+    if (!project::readText(&texts_, path, bytes).empty()) return nullptr;
+    auto file = std::make_shared<const SourceFile>(path, std::move(bytes));
+    return file->isEncrypted() ? nullptr : file;
+}
+
+bool Program::isSameText(const SourceFile& file) const {
+    const SourceFile& known = *modules_.at(file.path());
+    return file.text() == known.text() && file.encoding() == known.encoding();
+}
+
+void Program::takeText(const std::shared_ptr<const SourceFile>& file) {
+    std::shared_ptr<const SourceFile>& module = modules_.at(file->path());
+    moveJudgement(*module, file);
+    module = file;
+    for (sema::TaskInput& task : loaded_->tasks)
+        for (auto& known : task.files)
+            if (known->path() == file->path()) known = file;
+}
+
 void Program::takeChanges() {
     for (const std::string& path : std::exchange(changed_, {})) {
-        std::string bytes;
-        if (!project::readText(&texts_, path, bytes).empty()) return load();
-        const auto file = std::make_shared<const SourceFile>(path, std::move(bytes));
-        if (file->isEncrypted()) return load();
-        if (file->text() == modules_[path]->text() && file->encoding() == modules_[path]->encoding())
-            continue;
-        moveJudgement(*modules_[path], file);
-        modules_[path] = file;
-        for (sema::TaskInput& task : loaded_->tasks)
-            for (auto& known : task.files)
-                if (known->path() == path) known = file;
+        const auto file = readChanged(path);
+        if (!file) return load();
+        if (isSameText(*file)) continue;
+        takeText(file);
         session_->change(file);
     }
+    session_->complete();
 }
 
 const std::vector<diag::Diagnostic>& Program::diagnostics() {

@@ -5,6 +5,7 @@
 #include "frontend/workspace/compilation.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -41,7 +42,12 @@ class Program {
     void reload() { stale_ = true; }
     /// Takes in what has changed. False when that is nothing.
     bool update();
-    bool isUpToDate() const { return !stale_ && changed_.empty(); }
+    /// Takes in a change of the text of one module for an answer at a place in it that cannot wait. `offsetIn` gives the place
+    /// in the new text. Bodies of routines elsewhere in the module are checked by the next update(). False: nothing was done,
+    /// call update().
+    bool updateAround(const std::string& path,
+                      const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
+    bool isUpToDate() const { return !stale_ && changed_.empty() && session_->isComplete(); }
 
     /// Of the last update that changed something; no two updates of any programs have the same.
     uint64_t generation() const { return generation_; }
@@ -71,6 +77,10 @@ class Program {
   private:
     void load();
     void takeChanges();
+    std::shared_ptr<const SourceFile> readChanged(const std::string& path) const;
+    void takeText(const std::shared_ptr<const SourceFile>& file);
+    bool isSameText(const SourceFile& file) const;
+    void newGeneration();
     void judge();
     void keepJudgement();
     void moveJudgement(const SourceFile& before, const std::shared_ptr<const SourceFile>& now);

@@ -146,10 +146,27 @@ Program* Workspace::programOf(const std::string& path) {
     return nullptr; // encrypted, or it vanished
 }
 
+Program*
+Workspace::programAround(const std::string& path,
+                         const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn) {
+    Program* owner = chosenOwner(path);
+    const bool othersAreKnown = std::all_of(programs_.begin(), programs_.end(), [&](const auto& program) {
+        return program.get() == owner || program->isUpToDate();
+    });
+    if (owner && othersAreKnown && owner->hasModule(path) && owner->updateAround(path, offsetIn))
+        return owner;
+    return programOf(path);
+}
+
 Program* Workspace::ownerOf(const std::string& path) {
+    for (const auto& program : programs_)
+        program->update();
+    return chosenOwner(path);
+}
+
+Program* Workspace::chosenOwner(const std::string& path) const {
     Program* best = nullptr;
     for (const auto& program : programs_) {
-        program->update();
         if (!program->isFolder() && program->root() != path) continue; // its files belong to their folders
         if (program->reads(path) && (!best || program->root().size() > best->root().size()))
             best = program.get();

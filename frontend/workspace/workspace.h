@@ -41,6 +41,9 @@ class Workspace {
     /// The program that a module belongs to, up to date; null when the path is not a module. The modules of no folder get a program
     /// of their own here.
     Program* programOf(const std::string& path);
+    /// The same for an answer at a place in the module that cannot wait: see Program::updateAround.
+    Program* programAround(const std::string& path,
+                           const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
     /// Gives an open file that no program reads one of its own, if it is a module, a program file or a configuration. A program
     /// file always gets one.
     void adopt(const std::string& path);
@@ -56,6 +59,7 @@ class Workspace {
   private:
     Program* make(const std::string& root);
     Program* rooted(const std::string& root);
+    Program* chosenOwner(const std::string& path) const;
     std::string rootFor(const std::string& path) const;
     bool isRead(const std::string& path) const;
     bool isInFolders(const std::string& path) const;

@@ -76,7 +76,7 @@ Json toJson(State& state, const Target& target, const query::CompletionList& lis
 }
 
 Json completion(State& state, const Json& params) {
-    const Target target = state.targetAt(params);
+    const Target target = state.targetWhileTyping(params);
     if (!target.isModule()) return configurationCompletion(state, target);
     query::CompletionOptions options;
     options.limit = 1000; // more than anyone reads; the next letter asks again

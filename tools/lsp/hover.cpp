@@ -102,7 +102,7 @@ Json hover(State& state, const Json& params) {
 }
 
 Json signatureHelp(State& state, const Json& params) {
-    const Target target = state.targetAt(params);
+    const Target target = state.targetWhileTyping(params);
     if (!target.isModule()) return nullptr;
     const auto found = query::signatureHelpAt(*target.snapshot, *target.view, target.offset);
     if (!found) return nullptr;

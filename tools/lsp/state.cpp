@@ -64,17 +64,32 @@ std::shared_ptr<const PositionMap> State::positions(const std::shared_ptr<const 
     return positions_[file.get()] = std::make_shared<const PositionMap>(file, encoding);
 }
 
-Target State::target(const Json& params) {
+std::string State::pathOf(const Json& params) {
     const std::string uri = documentUri(params);
-    const std::string path = documents.pathOfUri(uri);
+    std::string path = documents.pathOfUri(uri);
     if (path.empty())
         throw RequestError{error::kInvalidParams, fmt::format("'{}' is not open, and it names no file", uri)};
-    return targetOfPath(path);
+    return path;
+}
+
+Target State::target(const Json& params) {
+    return targetOfPath(pathOf(params));
 }
 
 Target State::targetAt(const Json& params) {
     Target found = target(params);
     found.offset = found.positions->offset(positionOf(field(params, "position")));
+    return found;
+}
+
+Target State::targetWhileTyping(const Json& params) {
+    const std::string path = pathOf(params);
+    const auto position = positionOf(field(params, "position"));
+    Target found = targetIn(
+        path, workspace.programAround(path, [&](const std::shared_ptr<const rapid::SourceFile>& text) {
+            return positions(text)->offset(position);
+        }));
+    found.offset = found.positions->offset(position);
     return found;
 }
 
@@ -109,9 +124,13 @@ void State::prepareNames() {
 }
 
 Target State::targetOfPath(const std::string& path) {
+    return targetIn(path, workspace.programOf(path));
+}
+
+Target State::targetIn(const std::string& path, rapid::workspace::Program* program) {
     Target target;
     target.path = path;
-    target.program = workspace.programOf(path);
+    target.program = program;
     target.tree = target.program ? target.program->tree(path) : nullptr;
     const auto file = target.tree ? target.tree->source : workspace.read(path);
     if (!file)

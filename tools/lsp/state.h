@@ -67,6 +67,9 @@ class State {
     Target target(const Json& params);
     /// With the offset of params.position.
     Target targetAt(const Json& params);
+    /// The same while the user types there: only routines around the position need to have been checked, which others do not
+    /// wait for (Workspace::programAround).
+    Target targetWhileTyping(const Json& params);
     Target targetOfPath(const std::string& path);
     /// The program as queries see it, good until it changes.
     const rapid::query::Snapshot& snapshot(const rapid::workspace::Program& program);
@@ -94,6 +97,9 @@ class State {
     const rapid::query::Cancel* cancel = nullptr;
 
   private:
+    std::string pathOf(const Json& params);
+    Target targetIn(const std::string& path, rapid::workspace::Program* program);
+
     Send send_;
     std::unique_ptr<Json> initialization_;
     std::map<int64_t, Answered> waiting_;

@@ -209,6 +209,24 @@ std::string edit(Random& random, const std::string& text, const std::vector<std:
 
 using Editor = std::string (*)(Random&, const std::string&, const std::vector<std::string>&);
 
+/// A change as editors send it: the text at once, or first for an answer at a place in it, maybe with a text between.
+void change(Session& session, Random& random, const std::shared_ptr<const SourceFile>& file,
+            const std::string& before) {
+    const std::string now(file->text());
+    const size_t way = below(random, 4);
+    if (way == 3) { // half of the new text: what is typed next
+        const std::string half = now.substr(0, now.size() / 2) + before.substr(before.size() / 2);
+        const auto typed = std::make_shared<const SourceFile>(file->path(), half);
+        session.sketch(typed, static_cast<uint32_t>(below(random, half.size() + 1)));
+    }
+    if (way != 0) session.sketch(file, static_cast<uint32_t>(below(random, now.size() + 1)));
+    if (way == 0 || session.program().tasks.size() > 1)
+        REQUIRE(session.change(file));
+    else
+        session.complete();
+    REQUIRE(session.isComplete());
+}
+
 /// Changes one file after the other and compares each time. Files: path -> text, for each task.
 void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& tasks,
                          const CheckOptions& options, unsigned seed, int steps, Editor editor = edit) {
@@ -235,6 +253,7 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
     };
     Session session(options);
     session.open(inputs());
+    Random ways(seed + 1000);
     for (int step = 0; step < steps; ++step) {
         auto at = now.begin();
         std::advance(at, below(random, now.size()));
@@ -246,7 +265,7 @@ void compareThroughEdits(const std::vector<std::map<std::string, std::string>>& 
         const std::string before = at->second;
         at->second = heal ? first.at(at->first) : editor(random, at->second, originals);
         sources[at->first] = std::make_shared<const SourceFile>(at->first, at->second);
-        REQUIRE(session.change(sources[at->first]));
+        change(session, ways, sources[at->first], before);
 
         diag::Sink sink;
         const auto program = check(inputs(), options, sink);
