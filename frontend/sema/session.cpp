@@ -83,7 +83,7 @@ struct Session::State {
     void complete();
     /// Completes a sketch of another file.
     void completeUnless(const std::string& path);
-    /// What is sketched, if anything, is this file.
+    /// Nothing but this file may be sketched.
     void change(SessionTask& task, size_t index, const std::shared_ptr<const SourceFile>& file);
     void checkAcross();
     /// The last step of a check of a task, and what it reports about the whole.
