@@ -67,7 +67,7 @@ std::string show(const std::optional<SignatureHelp>& help) {
     return out;
 }
 
-/// What is asked while a user types at `offset`.
+/// Completion and signature help at `offset`.
 std::string answers(const sema::Session& session, const std::string& path, uint32_t offset) {
     const Snapshot snapshot(session.program());
     const FileView& file = *snapshot.file(path);
