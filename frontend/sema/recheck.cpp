@@ -241,7 +241,10 @@ void Analyzer::sketchFile(size_t file, uint32_t offset) {
     const std::vector<Module*> modules = declareAgain(std::span<const size_t>(&file, 1));
     state_.program.facts[slot]->spent = spent;
     findBrokenTrees();
-    state_.task.nameLists.reset();
+    // Reports are dropped. Suggestions for unknown names, and uses in the whole task that show what is a signal, would cost more than the check.
+    state_.task.comparisonsLeft = 0;
+    state_.task.nameLists.emplace();
+    const bool usesKnown = std::exchange(state_.task.signalUses.known, true);
     resolveDeclarations(modules);
     for (Module* module : modules) {
         state_.enterModule(module);
@@ -250,6 +253,8 @@ void Analyzer::sketchFile(size_t file, uint32_t offset) {
         for (RoutineSymbol* routine : routinesAround(*module, offset))
             routines_.checkRoutine(*routine);
     }
+    state_.task.signalUses.known = usesKnown;
+    state_.task.nameLists.reset();
     state_.task.unknownNames.clear();
     state_.reports.forgetMisfits();
 }
