@@ -18,7 +18,7 @@ constexpr double kLargestJump = 2;    // deg, between what two neighbouring stre
 /// Derivatives of the axes by place in the middle of a stretch, from points `step` before and after it.
 void differentiate(RouteStretch& stretch, const RoutePoint& low, const RoutePoint& high, double step) {
     stretch.first = stretch.second = robot::Joints::zeros(stretch.middle.joints.size());
-    for (std::size_t i = 0; i < stretch.first.size(); ++i) {
+    for (std::size_t i = 0; i < robot::kMostJoints; ++i) { // axes that the arm does not have stay 0
         stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
         stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
     }

@@ -69,7 +69,7 @@ TEST_CASE("a queue counts its elements up to a value", "[motion][queue]") {
     CHECK(queue.countUpTo(2.0, own) == 2);
 }
 
-TEST_CASE("a queue counts elements of many blocks, also after some are forgotten", "[motion][queue]") {
+TEST_CASE("a queue counts elements of many blocks, even after some are forgotten", "[motion][queue]") {
     std::mt19937_64 random(5);
     Queue<Large> queue;
     std::vector<int> expected;

@@ -213,7 +213,7 @@ TEST_CASE("configuration data of every mechanism name the posture they were read
     }
 }
 
-/// Rule: solving poses together changes no result by a bit, also where one of them cannot be reached, passes a singularity, or begins from
+/// Rule: solving poses together changes no result by a bit, even if one of them cannot be reached, passes a singularity, or begins from
 /// the solution of another one.
 TEST_CASE("poses that are solved together have the solutions of each alone", "[robot][kinematics]") {
     std::vector<const char*> names(std::begin(kMechanisms), std::end(kMechanisms));
