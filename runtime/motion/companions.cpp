@@ -164,8 +164,8 @@ void Companions::tighten(const Route& leader, const RouteStretch& stretch, Stret
         const std::size_t last = own.stretchAt(end.place);
         for (std::size_t k = own.stretchAt(begin.place); k <= last; ++k) {
             const RouteStretch& s = own.stretches()[k];
-            const StretchLimits l =
-                limitsOn(seenByLeader(s, slope, change), own.leg(s.leg).limits, members_[i].accelerations);
+            StretchLimits l;
+            limitsOn(seenByLeader(s, slope, change), own.leg(s.leg).limits, members_[i].accelerations, l);
             limits.speed = std::min(limits.speed, l.speed * (around > kLevel ? slope / around : 1));
             limits.bendSquare = std::min(limits.bendSquare, l.bendSquare);
             limits.gain = std::min(limits.gain, l.gain);

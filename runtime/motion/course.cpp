@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace motion {
 
 Course::Course(double time, double place, double longWindow, double shortWindow)
-    : knots_{Knot{time, 0, 0, 0, 0, 0, {}}}, origin_(place), longWindow_(longWindow),
-      shortWindow_(shortWindow) {}
+    : origin_(place), longWindow_(longWindow), shortWindow_(shortWindow) {
+    knots_.push_back({time, 0, 0, 0, 0, 0, {}});
+}
 
 Course Course::continued(double time, double longWindow, double shortWindow) const {
     Course next(std::max(time, end()), endPlace(), longWindow, shortWindow);
@@ -34,7 +36,8 @@ void Course::dropLongWindow(double time) {
         if (i > 0) averaged.back().a = (knot.v - averaged.back().v) / (knot.t - averaged.back().t);
         averaged.push_back(knot);
     }
-    knots_ = {averaged.front()};
+    knots_ = {};
+    knots_.push_back(averaged.front());
     longWindow_ = 0;
     for (std::size_t i = 1; i < averaged.size(); ++i)
         push(averaged[i]);
@@ -143,14 +146,15 @@ void Course::cutAfter(double time) {
 }
 
 void Course::shift(double seconds) {
-    for (Knot& knot : knots_)
-        knot.t += seconds;
+    for (std::size_t i = 0; i < knots_.size(); ++i)
+        knots_[i].t += seconds;
     before_ = nullptr; // nothing has been executed
 }
 
 void Course::slowBy(double factor) {
     const double begin = knots_.front().t;
-    for (Knot& knot : knots_) {
+    for (std::size_t i = 0; i < knots_.size(); ++i) {
+        Knot& knot = knots_[i];
         knot.t = begin + factor * (knot.t - begin);
         knot.v /= factor;
         knot.a /= factor * factor;
@@ -169,7 +173,7 @@ bool Course::forgetBefore(double time) {
     std::size_t spare = kWorthwhile;
     while (spare + 1 < knots_.size() && knots_[spare + 1].t <= needed)
         ++spare;
-    knots_.erase(knots_.begin(), knots_.begin() + static_cast<std::ptrdiff_t>(spare));
+    knots_.forget(spare);
     // Neither a shift of all places nor the constants of integration change what is executed.
     const double shift = knots_.front().s;
     origin_ += shift;
@@ -187,9 +191,8 @@ bool Course::forgetBefore(double time) {
 }
 
 const Course::Knot& Course::knotAt(double time) const {
-    const auto after = std::upper_bound(knots_.begin(), knots_.end(), time,
-                                        [](double value, const Knot& knot) { return value < knot.t; });
-    return after == knots_.begin() ? *after : *(after - 1);
+    const std::size_t begun = knots_.countUpTo(time, [](const Knot& knot) { return knot.t; });
+    return knots_[begun == 0 ? 0 : begun - 1];
 }
 
 Course::Integrals Course::integralsAt(double time) const {
@@ -230,15 +233,15 @@ double Course::lastBraking() const {
 
 double Course::plannedTimeAt(double place) const {
     const double wanted = place - origin_;
-    const auto after = std::lower_bound(knots_.begin(), knots_.end(), wanted,
-                                        [](const Knot& knot, double value) { return knot.s < value; });
-    if (after == knots_.begin()) return knots_.front().t;
-    if (after == knots_.end()) return knots_.back().t;
-    const Knot& from = *(after - 1);
+    const std::size_t passed = knots_.countWhile([&](const Knot& knot) { return knot.s < wanted; });
+    if (passed == 0) return knots_.front().t;
+    if (passed == knots_.size()) return knots_.back().t;
+    const Knot& from = knots_[passed - 1];
+    const Knot& after = knots_[passed];
     const double way = wanted - from.s;
-    if (isExact()) return from.t + timeOn(from, way, after->t - from.t);
+    if (isExact()) return from.t + timeOn(from, way, after.t - from.t);
     const double speed = std::sqrt(std::max(0.0, from.v * from.v + 2 * from.a * way));
-    return from.t + (way > 0 ? std::min(2 * way / (from.v + speed), after->t - from.t) : 0);
+    return from.t + (way > 0 ? std::min(2 * way / (from.v + speed), after.t - from.t) : 0);
 }
 
 CourseState Course::at(double time) const {

@@ -4,9 +4,10 @@
 // a moment depends only on the plan up to that moment, so the rest of the plan can be replaced at any time.
 // An exact course has no windows: it is executed as planned, in pieces that limit jerk themselves.
 
+#include "runtime/motion/queue.h"
+
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace motion {
 
@@ -17,7 +18,7 @@ struct CourseState {
 
 class Course {
   public:
-    Course() = default;
+    Course() { knots_.push_back({}); }
     /// At rest at `place` from `time` (s) on and before. The windows (s) are positive.
     Course(double time, double place, double longWindow, double shortWindow);
 
@@ -89,8 +90,8 @@ class Course {
     static Integrals integralsOn(const Knot& from, double time);
     void push(const Knot& knot);
 
-    std::vector<Knot> knots_{Knot{}}; // the last one: the end, at rest afterwards when its speed is 0
-    double origin_ = 0;               // subtracted from places, so that integrals stay small
+    Queue<Knot> knots_; // the last one: the end, at rest afterwards when its speed is 0
+    double origin_ = 0; // subtracted from places, so that integrals stay small
     double longWindow_ = 1, shortWindow_ = 1;
     std::shared_ptr<const Course> before_; // executed until `from_`; null for none
     double from_ = 0;

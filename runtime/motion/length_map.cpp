@@ -96,10 +96,19 @@ double LengthMap::parameterAt(double distance) const {
     if (!(distance > 0) || !(length_ > 0)) return 0;
     if (distance >= length_) return 1;
     if (pieces_.empty()) return distance / length_;
-    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
-                                        [](double value, const Piece& p) { return value < p.begin; });
-    const Piece& piece = *(after - 1);
-    const auto i = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+    // Mostly the piece that even pieces would have there, or one beside it.
+    const std::size_t count = pieces_.size();
+    const auto even = static_cast<std::size_t>(distance / length_ * static_cast<double>(count));
+    std::size_t i = even > 0 ? even - 1 : 0;
+    const std::size_t end = std::min(i + 3, count);
+    while (i < end && (pieces_[i].begin > distance || (i + 1 < count && pieces_[i + 1].begin <= distance)))
+        ++i;
+    if (i >= end) {
+        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), distance,
+                                            [](double value, const Piece& p) { return value < p.begin; });
+        i = static_cast<std::size_t>(after - pieces_.begin()) - 1;
+    }
+    const Piece& piece = pieces_[i];
     const double x = (distance - piece.begin) / piece.width;
     // Cubic with the exact slopes at both ends, where these are moderate enough to keep it growing.
     if (piece.isSmooth) return (static_cast<double>(i) + smoothShare(i, x)) * step_;
@@ -113,12 +122,36 @@ double LengthMap::distanceAt(double parameter) const {
     if (!(parameter > 0)) return 0;
     if (parameter >= 1) return length_;
     if (pieces_.empty()) return parameter * length_;
+    // A cubic map grows everywhere, so halving has to look at the parameter near the distance only.
+    constexpr double kClear = 1e-14; // of the parameter, far above its rounding
+    const double margin = 1e-11 * length_;
+    double near = 0;
+    bool isNear = false;
+    if (rates_.empty()) {
+        const auto piece = std::min(static_cast<std::size_t>(parameter / step_), pieces_.size() - 1);
+        near = pieces_[piece].begin;
+        for (int i = 0; i < 8; ++i) { // Newton's method
+            const double miss = parameter - parameterAt(near);
+            if (std::abs(miss) < kClear) break;
+            const double step = 1e-4 * pieces_[piece].width;
+            const double rise = parameterAt(near + step) - parameterAt(near);
+            if (!(rise > 0)) break;
+            near = std::clamp(near + miss * step / rise, pieces_[piece].begin,
+                              pieces_[piece].begin + pieces_[piece].width);
+        }
+        isNear = parameterAt(near - margin) < parameter - kClear &&
+                 parameterAt(near + margin) > parameter + kClear;
+    }
+    const auto isBefore = [&](double distance) {
+        if (isNear && std::abs(distance - near) > margin) return distance < near;
+        return parameterAt(distance) < parameter;
+    };
     double low = 0;
     double high = length_;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
         const bool isLast = middle == low || middle == high;
-        (parameterAt(middle) < parameter ? low : high) = middle;
+        (isBefore(middle) ? low : high) = middle;
         if (isLast) break;
     }
     return 0.5 * (low + high);

@@ -261,11 +261,20 @@ bool OptimalPlan::tightenWhereExceeded(const Course& course, const Route& route,
     std::vector<double> speeds(cells_.size(), 0);
     bool isExceeded = false;
     const auto count = static_cast<std::size_t>((course.plannedEnd() - time) / kStep) + 2 * kLast;
+    constexpr std::size_t kTogether = 3;
+    std::array<double, kTogether> places{}; // of this sample and the next ones
+    std::array<RoutePoint, kTogether> points;
     for (std::size_t k = 0; k < count; ++k) {
-        // The ticks before are those of the plan before, up to the moment from which on it is another.
-        const double moment = time + (static_cast<double>(k) - 2 * kPhases) * kStep;
-        const double place = course.plannedAt(moment).s;
-        samples[k % samples.size()] = {place, route.at(place).joints};
+        if (k % kTogether == 0) {
+            for (std::size_t i = 0; i < kTogether; ++i) {
+                // The ticks before are those of the plan before, up to the moment from which on it is another.
+                const double moment = time + (static_cast<double>(k + i) - 2 * kPhases) * kStep;
+                places[i] = course.plannedAt(moment).s;
+            }
+            route.at(places, points);
+        }
+        const double place = places[k % kTogether];
+        samples[k % samples.size()] = {place, points[k % kTogether].joints};
         if (k < kLast) continue;
         const auto at = [&](std::size_t i) -> const Sample& {
             return samples[(k - kLast + i) % samples.size()];

@@ -410,6 +410,17 @@ Joints MotionPath::jointsAt(double s, std::optional<Pose>* tcp) const {
     return solve(s, near.joints, joints, tcp) ? joints : near.joints;
 }
 
+bool MotionPath::seeksJoints(double s, robot::InverseTask& task, std::optional<Pose>& tcp) const {
+    const bool isBetween = s > 0 && s < 1 && isCartesian_ && !isEmpty_ && nodes_.size() >= 2;
+    if (!isBetween || isByWrist_ || mode_ != SingularityMode::Off) return false;
+    const Pose pose = curve_.at(s);
+    task.flange = flangeFor(pose, s);
+    task.seed = &nodeNear(s).joints;
+    task.armAngleDeg = armStart_ + armTravel_ * s;
+    tcp = pose;
+    return true;
+}
+
 ExternalAxes MotionPath::externalAt(double s) const {
     return s >= 1 ? end_.extax : externalNear(std::max(s, 0.0));
 }

@@ -83,6 +83,8 @@ class MotionPath {
     /// Axis angles at s in [0, 1]; exactly on the line or circle, not an interpolation between grid nodes.
     /// `tcp`: the TCP there in the object frame, when it is known without the angles.
     Joints jointsAt(double s, std::optional<Pose>* tcp = nullptr) const;
+    /// Makes jointsAt(s) a task, with the TCP there: its joints are those of jointsAt(). False, and nothing is set, where they are known without.
+    bool seeksJoints(double s, robot::InverseTask& task, std::optional<Pose>& tcp) const;
     ExternalAxes externalAt(double s) const;
     /// Ways of the external axes, added; deg and mm alike.
     double externalTravel() const;

@@ -220,20 +220,63 @@ const Joints& Route::jointsNear(double place) const {
 }
 
 RoutePoint Route::pointAt(double place, const Joints* near) const {
-    return pointOn(ownLeg(place), place, near, nullptr);
+    Sought sought;
+    robot::InverseTask task;
+    seekPoint(ownLeg(place), place, near, sought, task);
+    find({&sought, 1}, {&task, 1});
+    return sought.point;
 }
 
-RoutePoint Route::pointOn(std::size_t own, double place, const Joints* near, std::optional<Pose>* tcp) const {
-    return place > leg(own).end() && isRounded(own) ? pointInCorner(own, place, near, tcp)
-                                                    : pointOnLeg(own, place, near, tcp);
+void Route::at(std::span<const double> places, std::span<RoutePoint> points) const {
+    constexpr std::size_t kTogether = 3;
+    std::array<Sought, kTogether> sought;
+    std::array<robot::InverseTask, kTogether> tasks;
+    for (std::size_t first = 0; first < places.size(); first += kTogether) {
+        const std::size_t count = std::min(kTogether, places.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double place = std::clamp(places[first + i], 0.0, length());
+            sought[i] = {};
+            seekPoint(ownLeg(place), place, nullptr, sought[i], tasks[i]);
+        }
+        find(std::span(sought).first(count), std::span(tasks).first(count));
+        for (std::size_t i = 0; i < count; ++i)
+            points[first + i] = sought[i].point;
+    }
 }
 
-RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints* near,
-                             std::optional<Pose>* tcp) const {
+void Route::find(std::span<Sought> points, std::span<robot::InverseTask> tasks) const {
+    const robot::Kinematics& kinematics = legs_.front().path->kinematics();
+    const auto isTask = [](const Sought& point) { return point.isTask; };
+    if (std::all_of(points.begin(), points.end(), isTask)) {
+        kinematics.inverseContinueEach(tasks);
+    } else {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (points[i].isTask) kinematics.inverseContinueEach(tasks.subspan(i, 1));
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Sought& sought = points[i];
+        if (!sought.isTask) continue;
+        sought.point.joints = tasks[i].joints;
+        if (tasks[i].isSolved) continue;
+        sought.point.isSolved = sought.isAsMeasured;
+        sought.tcp.reset();
+    }
+}
+
+void Route::seekPoint(std::size_t own, double place, const Joints* near, Sought& sought,
+                      robot::InverseTask& task) const {
+    if (place > leg(own).end() && isRounded(own))
+        seekInCorner(own, place, near, sought, task);
+    else
+        seekOnLeg(own, place, near, sought, task);
+}
+
+void Route::seekOnLeg(std::size_t number, double place, const Joints* near, Sought& sought,
+                      robot::InverseTask& task) const {
     const Leg& l = leg(number);
     const double distance = place - l.pathBegin();
     const double parameter = l.lengths.parameterAt(distance);
-    RoutePoint point;
+    RoutePoint& point = sought.point;
     point.extax = l.path->externalAt(parameter);
     const Corner* turning = nullptr;
     // By external axes, or another robot, that are elsewhere than on the leg itself.
@@ -254,47 +297,45 @@ RoutePoint Route::pointOnLeg(std::size_t number, double place, const Joints* nea
         if (atEnd) frames = &leg(number + 1);
     }
     if (turning == nullptr && !armAngle && !isCarried) {
-        point.joints = l.path->jointsAt(parameter, tcp);
-        return point;
+        sought.isTask = sought.isAsMeasured = l.path->seeksJoints(parameter, task, sought.tcp);
+        if (!sought.isTask) point.joints = l.path->jointsAt(parameter, &sought.tcp);
+        return;
     }
     Pose pose = poseIn(l, *frames, distance);
     if (turning != nullptr) pose.rot = robot::turnedBy(turning->centre, turning->turn.at(place));
-    const Joints& seed = near != nullptr ? *near : jointsNear(place);
-    point.joints = seed;
-    point.isSolved = l.path->kinematics().inverseContinue(
-        flangeFor(*frames->path, pose, point.extax, place), seed, point.joints,
-        armAngle ? *armAngle : l.path->armAngleAt(parameter));
-    if (tcp != nullptr && point.isSolved && frames == &l) *tcp = pose;
-    return point;
+    sought.isTask = true;
+    task.seed = near != nullptr ? near : &jointsNear(place);
+    task.flange = flangeFor(*frames->path, pose, point.extax, place);
+    task.armAngleDeg = armAngle ? *armAngle : l.path->armAngleAt(parameter);
+    if (frames == &l) sought.tcp = pose;
 }
 
-RoutePoint Route::pointInCorner(std::size_t number, double place, const Joints* near,
-                                std::optional<Pose>* tcp) const {
+void Route::seekInCorner(std::size_t number, double place, const Joints* near, Sought& sought,
+                         robot::InverseTask& task) const {
     const Corner& c = corner(number);
     const Leg& next = leg(number + 1);
     const double x = c.lengths.parameterAt(place - c.begin);
-    RoutePoint point;
-    const Joints& seed = near != nullptr ? *near : jointsNear(place);
-    point.joints = seed;
+    RoutePoint& point = sought.point;
     point.extax = next.path->start().extax;
     if (c.kind == CornerKind::Joint) {
         const AxisVector axes = c.axes.at(x);
+        point.joints = near != nullptr ? *near : jointsNear(place);
         std::copy_n(axes.v.begin(), point.joints.size(), point.joints.begin());
         takeExternal(axes, point.extax);
-        return point;
+        return;
     }
-    double armAngle = c.armAngle;
+    task.armAngleDeg = c.armAngle;
     if (c.external.covers(place)) {
         const AxisVector axes = c.external.at(place);
         takeExternal(axes, point.extax);
-        armAngle = axes.v[kArmAnglePlace];
+        task.armAngleDeg = axes.v[kArmAnglePlace];
     }
     const Pose pose{c.space.at(x),
                     c.turn.covers(place) ? robot::turnedBy(c.centre, c.turn.at(place)) : c.centre};
-    point.isSolved = next.path->kinematics().inverseContinue(flangeFor(*next.path, pose, point.extax, place),
-                                                             seed, point.joints, armAngle);
-    if (tcp != nullptr && point.isSolved) *tcp = pose;
-    return point;
+    sought.isTask = true;
+    task.seed = near != nullptr ? near : &jointsNear(place);
+    task.flange = flangeFor(*next.path, pose, point.extax, place);
+    sought.tcp = pose;
 }
 
 double Route::legStart(std::size_t number) const {

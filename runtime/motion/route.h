@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace motion {
 
@@ -94,6 +95,8 @@ class Route {
 
     /// `near`: the joints at a place close by, if they are known.
     RoutePoint at(double place, const Joints* near = nullptr) const;
+    /// The same at several places near each other.
+    void at(std::span<const double> places, std::span<RoutePoint> points) const;
     /// The user frame of the leg at a place, where the robot that carries it really is; without this it is where the legs as
     /// programmed bring it.
     void setCarrier(std::function<Pose(double)> carrier) { carrier_ = std::move(carrier); }
@@ -124,13 +127,23 @@ class Route {
     const Joints& jointsNear(double place) const;
     /// `near`: the joints at a place close by; null: those of the stretch there.
     RoutePoint pointAt(double place, const Joints* near) const;
-    /// The same where ownLeg() is known. `tcp`: the TCP there in the frames of the leg, of the later one in a corner, when it is known
-    /// without the angles.
-    RoutePoint pointOn(std::size_t own, double place, const Joints* near, std::optional<Pose>* tcp) const;
-    RoutePoint pointOnLeg(std::size_t number, double place, const Joints* near,
-                          std::optional<Pose>* tcp) const;
-    RoutePoint pointInCorner(std::size_t number, double place, const Joints* near,
-                             std::optional<Pose>* tcp) const;
+    /// A point whose joints may still be sought.
+    struct Sought {
+        RoutePoint point;
+        /// The TCP there in the frames of the leg, of the later one in a corner, when it is known without the angles.
+        std::optional<Pose> tcp;
+        bool isTask = false;       ///< its joints are those of the task
+        bool isAsMeasured = false; ///< without a solution they are those of the leg's node nearby
+    };
+    /// The same where ownLeg() is known, up to the inverse, which becomes the task.
+    void seekPoint(std::size_t own, double place, const Joints* near, Sought& sought,
+                   robot::InverseTask& task) const;
+    void seekOnLeg(std::size_t number, double place, const Joints* near, Sought& sought,
+                   robot::InverseTask& task) const;
+    void seekInCorner(std::size_t number, double place, const Joints* near, Sought& sought,
+                      robot::InverseTask& task) const;
+    /// Solves the tasks of as many points.
+    void find(std::span<Sought> points, std::span<robot::InverseTask> tasks) const;
 
     void makeCorner(CornerKind kind, double before, double after, double fixedUpTo);
     static void curveInSpace(Corner& corner, const Leg& a, const Leg& b);

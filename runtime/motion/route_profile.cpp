@@ -151,10 +151,14 @@ ProfileCell measuredCell(const Route& route, const RouteStretch& stretch, const 
     const MoveLimits& most = leg.limits;
     Sampled sampled;
     sampled.step = cell.width / (kSamples - 1);
+    std::array<double, kSamples> places{};
     for (std::size_t k = 0; k < kSamples; ++k) {
         // Just inside: what counts beyond the border belongs to the neighbour.
         const double inside = k == 0 ? 1e-9 : k + 1 == kSamples ? -1e-9 : 0;
-        sampled.points[k] = route.at(stretch.begin + sampled.step * (static_cast<double>(k) + inside));
+        places[k] = stretch.begin + sampled.step * (static_cast<double>(k) + inside);
+    }
+    route.at(places, sampled.points);
+    for (std::size_t k = 0; k < kSamples; ++k) {
         sampled.tcp[k] = leg.path->frames().fromFlange(
             leg.path->kinematics().forward(sampled.points[k].joints), sampled.points[k].extax);
     }

@@ -18,7 +18,7 @@ constexpr double kLargestJump = 2;    // deg, between what two neighbouring stre
 /// Derivatives of the axes by place in the middle of a stretch, from points `step` before and after it.
 void differentiate(RouteStretch& stretch, const RoutePoint& low, const RoutePoint& high, double step) {
     stretch.first = stretch.second = robot::Joints::zeros(stretch.middle.joints.size());
-    for (std::size_t i = 0; i < stretch.first.size(); ++i) {
+    for (std::size_t i = 0; i < robot::kMostJoints; ++i) { // axes that the arm does not have stay 0
         stretch.first[i] = (high.joints[i] - low.joints[i]) / (2 * step);
         stretch.second[i] = (high.joints[i] - 2 * stretch.middle.joints[i] + low.joints[i]) / (step * step);
     }
@@ -215,10 +215,16 @@ bool Route::measure(RouteStretch& stretch, std::size_t own, const Joints& seed) 
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
     stretch.isReversal = inCorner && corner(own).reversalRate > 0;
-    std::optional<Pose> beforeTcp, hereTcp, afterTcp;
-    stretch.middle = pointOn(own, middle, &seed, &hereTcp);
-    const RoutePoint low = pointOn(own, middle - step, &stretch.middle.joints, &beforeTcp);
-    const RoutePoint high = pointOn(own, middle + step, &stretch.middle.joints, &afterTcp);
+    std::array<Sought, 3> sought;
+    std::array<robot::InverseTask, 3> tasks;
+    seekPoint(own, middle, &seed, sought[0], tasks[0]);
+    const Joints& near = sought[0].isTask ? tasks[0].joints : sought[0].point.joints;
+    seekPoint(own, middle - step, &near, sought[1], tasks[1]);
+    seekPoint(own, middle + step, &near, sought[2], tasks[2]);
+    find(sought, tasks);
+    stretch.middle = sought[0].point;
+    const RoutePoint &low = sought[1].point, &high = sought[2].point;
+    const auto &hereTcp = sought[0].tcp, &beforeTcp = sought[1].tcp, &afterTcp = sought[2].tcp;
     differentiate(stretch, low, high, step);
     const robot::Kinematics& kinematics = l.path->kinematics();
     const FrameSetup& frames = leg(inCorner ? own + 1 : own).path->frames();

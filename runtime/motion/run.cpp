@@ -144,7 +144,7 @@ std::size_t Run::limitStretches(std::size_t from) {
     for (std::size_t k = from; k < stretches.size(); ++k) {
         const RouteStretch& s = stretches[k];
         StretchLimits& added = limits_.grow();
-        added = limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations);
+        limitsOn(s, route_.leg(s.leg).limits, *settings_.accelerations, added);
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, added);
         added.ownSpeed = added.speed;
         if (!s.isAxesCorner) added.axisSpeed = kUnlimited; // no dip that is widened

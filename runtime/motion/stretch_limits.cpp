@@ -55,9 +55,8 @@ SquareRange StretchLimits::reachFrom(double square, double partWidth, bool towar
     return result;
 }
 
-StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
-                       const robot::AccelerationMap& accelerationMap) {
-    StretchLimits l;
+void limitsOn(const RouteStretch& s, const MoveLimits& most, const robot::AccelerationMap& accelerationMap,
+              StretchLimits& l) {
     l.width = s.end - s.begin;
     l.speed = std::min({atMost(most.tcpSpeed, s.tcpRate), atMost(most.orientationSpeed, s.turnRate),
                         atMost(most.armAngleSpeed, s.armRate), most.pathSpeed});
@@ -98,7 +97,6 @@ StretchLimits limitsOn(const RouteStretch& s, const MoveLimits& most,
     if (s.isReversal) l.bendSquare = std::min(l.bendSquare, atMost(share * braking, s.curvature));
     l.gain = atMost(share * most.pathAcceleration, s.tcpRate);
     l.drop = atMost(share * most.pathDeceleration, s.tcpRate);
-    return l;
 }
 
 } // namespace motion

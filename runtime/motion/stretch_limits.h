@@ -51,8 +51,8 @@ struct StretchLimits {
     SquareRange reachFrom(double square, double partWidth, bool towardsEnd) const;
 };
 
-/// The limits of the axes of one robot and of a move.
-StretchLimits limitsOn(const RouteStretch& stretch, const MoveLimits& most,
-                       const robot::AccelerationMap& accelerations);
+/// Sets new limits to those of the axes of one robot and of a move.
+void limitsOn(const RouteStretch& stretch, const MoveLimits& most,
+              const robot::AccelerationMap& accelerations, StretchLimits& limits);
 
 } // namespace motion

@@ -104,6 +104,10 @@ bool Kinematics::inverseContinue(const Pose& flange, const Joints& seed, Joints&
     return mechanism_->inverseContinue(flange, seed, armAngleDeg, out);
 }
 
+void Kinematics::inverseContinueEach(std::span<InverseTask> tasks) const {
+    mechanism_->inverseContinueEach(tasks);
+}
+
 bool Kinematics::inverseWithWrist(const Vec3& tcp, const Pose& flange_tcp, const Joints& wrist,
                                   const Joints& seed, Joints& out) const {
     return mechanism_->inverseWithWrist(tcp, flange_tcp, wrist, seed, out);

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace robot {
@@ -94,6 +95,15 @@ inline constexpr double kSeedArmAngle = std::numeric_limits<double>::quiet_NaN()
 
 class Mechanism;
 
+/// One of several poses near each other whose joints are sought.
+struct InverseTask {
+    Pose flange;
+    const Joints* seed = nullptr; ///< may be `joints` of an earlier task
+    double armAngleDeg = 0;
+    Joints joints;         ///< the solution; the seed when there is none
+    bool isSolved = false; ///< the pose can be reached
+};
+
 /// Kinematics of one model. A value, cheap to copy; thread-safe; no allocation in any call, no exception. Figures that
 /// are not numbers and joints of a different number of axes give "unreachable" or a pose of no meaning, never a crash.
 /// `armAngleDeg` counts only for seven axes: eax_a of the robtarget.
@@ -143,6 +153,9 @@ class Kinematics {
     /// to, no limit check. Returns false when out of reach.
     bool inverseContinue(const Pose& flange, const Joints& seed, Joints& out,
                          double armAngleDeg = kSeedArmAngle) const;
+
+    /// As inverseContinue() for one task after the other, in less time.
+    void inverseContinueEach(std::span<InverseTask> tasks) const;
 
     /// SingArea \Wrist: axes 4 to 6 are given in `wrist` (its axes 1 to 3 do not count), axes 1 to 3 bring the
     /// tool centre point to `tcp` (base frame, mm); `flange_tcp` is the tool. The solution nearest to `seed`, no

@@ -197,6 +197,11 @@ bool Mechanism::inverseContinue(const Pose& flange, const Joints& seed, double a
     return nearestOf(branches, seed, out);
 }
 
+void Mechanism::inverseContinueEach(std::span<InverseTask> tasks) const {
+    for (InverseTask& task : tasks)
+        continueAlone(task);
+}
+
 Expected<Joints, IkError> Mechanism::inverse(const Pose& flange, const ConfData& conf, const Joints& seed,
                                              double armAngleDeg) const {
     IkBranches branches;

@@ -53,6 +53,7 @@ class Mechanism {
                                               double armAngleDeg) const;
     virtual bool inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                  Joints& out) const;
+    virtual void inverseContinueEach(std::span<InverseTask> tasks) const;
     virtual bool inverseWithWrist(const Vec3& tcp, const Pose& flange_tcp, const Joints& wrist,
                                   const Joints& seed, Joints& out) const;
     virtual bool inverseLockedAxis4(const Pose& base_tcp, const Pose& flange_tcp, double axis4Deg,
@@ -78,6 +79,10 @@ class Mechanism {
     const Joints& upper() const { return upper_; }
 
   protected:
+    void continueAlone(InverseTask& task) const {
+        task.joints = *task.seed;
+        task.isSolved = inverseContinue(task.flange, *task.seed, task.armAngleDeg, task.joints);
+    }
     /// Model angle of joint i, all zero in the posture that the mechanism calls zero.
     double modelAngle(const Joints& joints, std::size_t i) const {
         return signs_[i] * joints[i] + shifts_[i];

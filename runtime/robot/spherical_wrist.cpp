@@ -10,6 +10,8 @@ namespace robot {
 namespace {
 
 constexpr double kFreeWrist = 1e-10; // sine of axis 5 below which axes 4 and 6 are one axis
+// Another branch turns axis 1 or 4 by about half a revolution: a near solution is the nearest.
+constexpr double kNear = 20; // deg
 
 /// The flange pose taken apart once for all branches.
 struct SphericalTarget {
@@ -26,9 +28,15 @@ class SphericalWrist final : public SixAxes {
                                       double armAngleDeg) const override;
     bool inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                          Joints& out) const override;
+    void inverseContinueEach(std::span<InverseTask> tasks) const override;
 
   private:
+    template <std::size_t N> void continueTogether(std::span<InverseTask, N> tasks) const;
+    int branchForward(const Joints& seed) const;
     bool takeApart(const Pose& flange, const Joints& seed, SphericalTarget& target) const;
+    /// Sines and cosines of the angles, six of each; the sine of axis 5.
+    double findTerms(const SphericalTarget& target, const ArmBranch& arm, int cfx, double* y,
+                     double* x) const;
     bool solveBranch(const SphericalTarget& target, int cfx, double axis4, double axis6, Joints& out) const;
     /// Axes 4 and 6 in line: axis 4 at `axis4` degrees, axis 6 in the turn nearest to `axis6`.
     void solveFreeWrist(const SphericalTarget& target, const ArmBranch& arm, double axis4, double axis6,
@@ -52,22 +60,32 @@ void SphericalWrist::solveFreeWrist(const SphericalTarget& target, const ArmBran
     model[5] = nearestTurn(model[5], signs_[5] * axis6 + shifts_[5]);
 }
 
-bool SphericalWrist::solveBranch(const SphericalTarget& target, int cfx, double axis4, double axis6,
-                                 Joints& out) const {
-    ArmBranch arm;
-    if (!plane_.solve(target.arm, cfx >> 2 & 1, cfx >> 1 & 1, arm)) return false;
+double SphericalWrist::findTerms(const SphericalTarget& target, const ArmBranch& arm, int cfx, double* y,
+                                 double* x) const {
     const double flip = ((cfx & 1) == 0) == (signs_[4] > 0) ? 1.0 : -1.0;
     const double m10 = dot(arm.forearmY(), target.flangeZ);
     const double m20 = dot(arm.forearmZ(), target.flangeZ);
     const double sine5 = std::sqrt(m10 * m10 + m20 * m20);
-    const double y[6] = {arm.sine1,  arm.sine2,    arm.sineEta,
-                         flip * m10, flip * sine5, flip * dot(arm.forearmX(), target.flangeY)};
-    const double x[6] = {arm.cosine1,
-                         arm.cosine2,
-                         arm.cosineEta,
-                         -flip * m20,
-                         dot(arm.forearmX(), target.flangeZ),
-                         -flip * dot(arm.forearmX(), target.flangeX)};
+    const double ys[6] = {arm.sine1,  arm.sine2,    arm.sineEta,
+                          flip * m10, flip * sine5, flip * dot(arm.forearmX(), target.flangeY)};
+    const double xs[6] = {arm.cosine1,
+                          arm.cosine2,
+                          arm.cosineEta,
+                          -flip * m20,
+                          dot(arm.forearmX(), target.flangeZ),
+                          -flip * dot(arm.forearmX(), target.flangeX)};
+    std::copy(ys, ys + 6, y);
+    std::copy(xs, xs + 6, x);
+    return sine5;
+}
+
+bool SphericalWrist::solveBranch(const SphericalTarget& target, int cfx, double axis4, double axis6,
+                                 Joints& out) const {
+    ArmBranch arm;
+    if (!plane_.solve(target.arm, cfx >> 2 & 1, cfx >> 1 & 1, arm)) return false;
+    double y[6];
+    double x[6];
+    const double sine5 = findTerms(target, arm, cfx, y, x);
     double angle[6];
     trig::atan2Deg(y, x, angle);
     double model[6] = {angle[0], angle[1], angle[2] - plane_.angleDeg, angle[3], angle[4], angle[5]};
@@ -154,11 +172,16 @@ Expected<Joints, IkError> SphericalWrist::inverse(const Pose& flange, const Conf
     return joints;
 }
 
+/// The branch of the seed if the arm reaches forward.
+int SphericalWrist::branchForward(const Joints& seed) const {
+    const double elbowDeg = modelAngle(seed, 2) + plane_.angleDeg;
+    const double within = std::abs(elbowDeg) < 180 ? elbowDeg : elbowDeg - 360 * std::round(elbowDeg / 360);
+    return (within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0);
+}
+
 bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, double armAngleDeg,
                                      Joints& out) const {
-    // Another branch turns axis 1 or 4 by about half a revolution: a near solution is the nearest. Most arms reach forward,
-    // and that they do is quicker to try than to compute.
-    constexpr double kNear = 20; // deg
+    // Most arms reach forward, and that they do is quicker to try than to compute.
     SphericalTarget target;
     Joints same = seed;
     const bool isWhole = takeApart(flange, seed, target);
@@ -168,9 +191,7 @@ bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, dou
         out = same;
         return true;
     };
-    const double elbowDeg = modelAngle(seed, 2) + plane_.angleDeg;
-    const double within = std::abs(elbowDeg) < 180 ? elbowDeg : elbowDeg - 360 * std::round(elbowDeg / 360);
-    const int forward = (within < 0 ? 2 : 0) | (seed[4] < 0 ? 1 : 0);
+    const int forward = branchForward(seed);
     if (isNear(forward)) return true;
     const int own = configuration(seed).cfx;
     if (own != forward && isNear(own)) return true;
@@ -190,6 +211,54 @@ bool SphericalWrist::inverseContinue(const Pose& flange, const Joints& seed, dou
         }
     }
     return best < HUGE_VAL;
+}
+
+/// Step by step for all poses: what one has to wait for in a step, the others fill. A task whose seed is still sought gets the branch of the
+/// task that seeks it, and is solved alone when that was wrong.
+template <std::size_t N> void SphericalWrist::continueTogether(std::span<InverseTask, N> tasks) const {
+    int branch[N];
+    for (std::size_t i = 0; i < N; ++i) {
+        std::size_t before = 0;
+        while (before < i && tasks[i].seed != &tasks[before].joints)
+            ++before;
+        branch[i] = before < i ? branch[before] : branchForward(*tasks[i].seed);
+    }
+    SphericalTarget target[N];
+    ArmBranch arm[N];
+    bool isUsual[N];
+    for (std::size_t i = 0; i < N; ++i)
+        isUsual[i] = takeApart(tasks[i].flange, *tasks[0].seed, target[i]) && !target[i].arm.isArmFree;
+    for (std::size_t i = 0; i < N; ++i)
+        isUsual[i] = isUsual[i] && plane_.solve(target[i].arm, 0, branch[i] >> 1 & 1, arm[i]);
+    double y[6 * N];
+    double x[6 * N];
+    double angle[6 * N];
+    for (std::size_t i = 0; i < N; ++i) {
+        const double sine5 = findTerms(target[i], arm[i], branch[i], y + 6 * i, x + 6 * i);
+        isUsual[i] = isUsual[i] && sine5 >= kFreeWrist;
+    }
+    trig::atan2Deg(y, x, angle);
+    for (std::size_t i = 0; i < N; ++i) {
+        InverseTask& task = tasks[i];
+        const double* const a = angle + 6 * i;
+        Joints found = *task.seed;
+        if (isUsual[i]) toAxes({a[0], a[1], a[2] - plane_.angleDeg, a[3], a[4], a[5]}, found);
+        if (isUsual[i] && branchForward(*task.seed) == branch[i] && turnTowards(*task.seed, found) < kNear) {
+            task.joints = found;
+            task.isSolved = true;
+        } else {
+            continueAlone(task);
+        }
+    }
+}
+
+void SphericalWrist::inverseContinueEach(std::span<InverseTask> tasks) const {
+    for (; tasks.size() >= 3; tasks = tasks.subspan(3))
+        continueTogether<3>(tasks.first<3>());
+    if (tasks.size() == 2)
+        continueTogether<2>(tasks.first<2>());
+    else if (!tasks.empty())
+        continueAlone(tasks.front());
 }
 
 } // namespace

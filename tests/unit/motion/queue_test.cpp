@@ -4,9 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <random>
+#include <vector>
 
 using motion::Queue;
 
@@ -65,4 +67,26 @@ TEST_CASE("a queue counts its elements up to a value", "[motion][queue]") {
     CHECK(queue.countUpTo(9.0, own) == 4);
     queue.forget(1);
     CHECK(queue.countUpTo(2.0, own) == 2);
+}
+
+TEST_CASE("a queue counts elements of many blocks, even after some are forgotten", "[motion][queue]") {
+    std::mt19937_64 random(5);
+    Queue<Large> queue;
+    std::vector<int> expected;
+    int number = 0;
+    for (int round = 0; round < 60; ++round) {
+        for (std::size_t count = random() % 9; count > 0; --count) {
+            number += static_cast<int>(random() % 3); // equal ones as well
+            queue.grow().number = number;
+            expected.push_back(number);
+        }
+        const std::size_t forgotten = random() % 4 == 0 ? random() % (expected.size() + 1) : 0;
+        queue.forget(forgotten);
+        expected.erase(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(forgotten));
+        for (int most = number - 40; most <= number + 1; ++most) {
+            const auto after = std::upper_bound(expected.begin(), expected.end(), most);
+            const auto wanted = static_cast<std::size_t>(after - expected.begin());
+            REQUIRE(queue.countUpTo(most, [](const Large& l) { return l.number; }) == wanted);
+        }
+    }
 }

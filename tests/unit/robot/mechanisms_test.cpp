@@ -5,9 +5,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <span>
+#include <vector>
 
 using namespace robot_testing;
 
@@ -206,6 +210,48 @@ TEST_CASE("configuration data of every mechanism name the posture they were read
         }
         CHECK(wrong == 0);
         CHECK(otherFigures == 0);
+    }
+}
+
+/// Rule: solving poses together changes no result by a bit, even if one of them cannot be reached, passes a singularity, or begins from
+/// the solution of another one.
+TEST_CASE("poses that are solved together have the solutions of each alone", "[robot][kinematics]") {
+    std::vector<const char*> names(std::begin(kMechanisms), std::end(kMechanisms));
+    names.insert(names.end(), {"IRB 120-3/0.58", "IRB 6640-180/2.55"});
+    for (const char* name : names) {
+        CAPTURE(name);
+        const RobotModel robot = model(name);
+        const Kinematics kinematics(robot);
+        Postures postures(robot, 11);
+        std::mt19937_64 random(3);
+        int solved = 0, different = 0;
+        for (int round = 0; round < 1500; ++round) {
+            const Joints seed = postures.next();
+            std::array<InverseTask, 5> tasks;
+            const std::size_t count = 1 + random() % tasks.size();
+            for (std::size_t i = 0; i < count; ++i) {
+                InverseTask& task = tasks[i];
+                const double most = random() % 8 == 0 ? 40 : 2; // deg from the seed
+                Joints joints = seed;
+                for (double& angle : joints)
+                    angle += std::uniform_real_distribution<double>(-most, most)(random);
+                if (random() % 8 == 0 && joints.size() > 4) joints[4] = 0;
+                task.flange = kinematics.forward(joints);
+                if (random() % 16 == 0) task.flange.pos.x += 20000;
+                task.armAngleDeg = kinematics.armAngle(joints);
+                task.seed = i > 0 && random() % 2 == 0 ? &tasks[random() % i].joints : &seed;
+            }
+            kinematics.inverseContinueEach(std::span(tasks).first(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                Joints alone = *tasks[i].seed;
+                const bool isSolved =
+                    kinematics.inverseContinue(tasks[i].flange, *tasks[i].seed, alone, tasks[i].armAngleDeg);
+                if (isSolved != tasks[i].isSolved || !(alone == tasks[i].joints)) ++different;
+                if (isSolved) ++solved;
+            }
+        }
+        CHECK(different == 0);
+        CHECK(solved > 1000);
     }
 }
 
