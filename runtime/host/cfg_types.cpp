@@ -18,6 +18,14 @@ std::string robotTypeName(const std::string& model, std::size_t group) {
     return type;
 }
 
+std::string robotAxisName(std::string_view robot, std::size_t group, std::size_t axis) {
+    constexpr std::string_view kRobot = "ROB_";
+    const bool hasLetter = robot.size() > kRobot.size() && sameName(robot.substr(0, kRobot.size()), kRobot) &&
+                           robot.find_first_of("0123456789") == std::string_view::npos;
+    return hasLetter ? fmt::format("rob_{}_{}", robot.substr(kRobot.size()), axis)
+                     : fmt::format("rob{}_{}", group + 1, axis);
+}
+
 namespace {
 
 struct Row {
@@ -92,8 +100,9 @@ std::vector<Axis> axesOf(const MechanicalUnits& units, const MechanicalUnit& uni
     for (std::size_t i = 0; i < kinematics.jointCount(); ++i) {
         const int number = kinematics.axisNumber(i);
         const double factor = kinematics.isLinear(i) ? robot::kMmPerMetre : robot::kDegreesPerRadian;
-        axes.push_back({fmt::format("rob{}_{}", unit.group + 1, number), number, number,
-                        !kinematics.isLinear(i), model.lowerDeg[i] / factor, model.upperDeg[i] / factor});
+        axes.push_back({robotAxisName(unit.name, unit.group, static_cast<std::size_t>(number)), number,
+                        number, !kinematics.isLinear(i), model.lowerDeg[i] / factor,
+                        model.upperDeg[i] / factor});
     }
     return axes;
 }

@@ -35,6 +35,10 @@ std::vector<std::string> cfgTypesOf(std::string_view domain);
 /// use_robot_type of a model in a motion group, counted from 0: "ROB1_120_3_0.58" of "IRB 120-3/0.58".
 std::string robotTypeName(const std::string& model, std::size_t group);
 
+/// Name of a robot's axis, from 1: "rob1_1" of ROB_1, the robot of the first motion group (counted from 0), and "rob_L_1" of ROB_L: a
+/// robot with a letter, as those of a YuMi.
+std::string robotAxisName(std::string_view robot, std::size_t group, std::size_t axis);
+
 /// Serial number of the simulated robot: its parts before and after the hyphen are parameters (ROBOT_SERIAL_NUMBER).
 inline constexpr std::string_view kSerialNumber = "00-00000";
 

@@ -2,6 +2,7 @@
 
 #include "runtime/base/text_util.h"
 #include "runtime/host/axis_reader.h"
+#include "runtime/host/cfg_types.h"
 #include "runtime/robot/angles.h"
 #include "runtime/robot/robot_model.h"
 
@@ -18,11 +19,12 @@ namespace {
 constexpr const char* kFirstRobot = "ROB_1";
 constexpr std::size_t kUnnumbered = 99; // an axis whose place among the external axes is not known yet
 
-/// Bounds of the robot's axes: ARM "rob1_1" to "rob1_6", the second robot's "rob2_1" and so on.
-void applyBounds(const std::vector<const CfgInstance*>& arms, std::size_t robot, robot::RobotModel& model) {
+/// Bounds of the robot's axes.
+void applyBounds(const std::vector<const CfgInstance*>& arms, std::string_view name, std::size_t robot,
+                 robot::RobotModel& model) {
     for (const CfgInstance* arm : arms) {
         for (std::size_t axis = 0; axis < model.lowerDeg.size(); ++axis) {
-            if (!sameName(arm->text("name"), fmt::format("rob{}_{}", robot + 1, axis + 1))) continue;
+            if (!sameName(arm->text("name"), robotAxisName(name, robot, axis + 1))) continue;
             double bound = 0;
             if (arm->number("upper_joint_bound", bound))
                 model.upperDeg[axis] = bound * robot::kDegreesPerRadian;
@@ -185,7 +187,7 @@ std::string MechanicalUnits::addRobots(const CfgLookup& configuration, const std
         group.isModelAssumed = plan.isAssumed;
         if (plan.instance != nullptr)
             group.model.baseFrame = baseFrameOf(*plan.instance, group.model.baseFrame);
-        applyBounds(configuration("MOC", "ARM"), groups_.size(), group.model);
+        applyBounds(configuration("MOC", "ARM"), plan.name, groups_.size(), group.model);
         unit->isRobot = unit->isActive = unit->staysActive = true;
         unit->axes = static_cast<int>(group.model.lowerDeg.size());
         unit->group = groups_.size();

@@ -38,6 +38,7 @@ struct Dialog {
     std::string initial;              ///< text or number that the entry begins with; "" = none
     std::optional<double> least, most, increment; ///< of a number: its limits, the step of its keys + and -
     bool isWhole = false;                         ///< only whole numbers may be answered
+    bool isDnum = false;                          ///< a number of type dnum, otherwise of type num
     std::string hint;       ///< what may be answered, for people at a terminal; may be empty
     bool answerable = true; ///< false: it has no button, and something else ends it
     Time deadline = kNever; ///< absolute (\MaxTime)

@@ -81,6 +81,22 @@ const checks = {
         await page.getByRole("dialog").locator("input").press("Enter");
         return [...problems, ...(await requested(controller, "dialogs.answer", { id: text, text: "B-18" }))];
     },
+    async "dialogs: with buttons, an item of a list is only chosen; a button answers with it"({ page, controller }) {
+        // RAPID manual, UIListView: the result is the item, the btnres the button that was pressed
+        const id = controller.openDialog("list");
+        await page.getByRole("dialog").getByText("Plate").click();
+        await page.getByRole("dialog").getByRole("button", { name: "Cancel" }).click();
+        return requested(controller, "dialogs.answer", { id, item: 3, choice: 2 });
+    },
+    async "program: ModPos says which line it changed"({ page, controller }) {
+        controller.setRunning(false);
+        await page.locator("#tab-program").click();
+        await page.getByRole("button", { name: "ModPos", exact: true }).click();
+        const problems = await until(() => controller.calledWith("teach.modify").length > 0, "teach.modify was not asked");
+        const notices = page.locator(".notices");
+        problems.push(...(await until(async () => /Position modified: \w+, line \d+/.test(await notices.textContent()), "the line is not named")));
+        return problems;
+    },
     async "a restart of the controller: the page reads everything again"({ page, controller }) {
         const before = controller.calledWith("state").length;
         controller.send("generation", {});

@@ -299,6 +299,6 @@ const methods = {
     "jog.start": jog,
     "jog.stop": (c, { unit = "ROB_1" }) => c.send("jog", { unit, moving: false, limit: "" }),
     "jog.tool": (c, { unit }) => ({ tool: c.find(c.units, unit).tool, workObject: c.find(c.units, unit).workObject }),
-    "teach.modify": () => ({ name: "pPick", value: "[[0,40,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", inText: false }),
+    "teach.modify": () => ({ inText: false }),
     "teach.read": () => ({ value: "[[0,40,20],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]" }),
 };

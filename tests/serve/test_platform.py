@@ -2,8 +2,12 @@
 
 import os
 import ssl
+import tempfile
+import time
+import unittest
+import unittest.mock
 
-from serve_testing import Serve, ServeCase, main
+from serve_testing import SLOW, Serve, ServeCase, main
 
 
 SYS_WITH_HOME = """SYS:CFG_1.0:7:0::
@@ -48,6 +52,55 @@ MODULE_OF_TWO = """MODULE {0}
   ENDPROC
 ENDMODULE
 """
+
+class LargeRoutines(unittest.TestCase):
+    """Contract 2: the line with the addresses is printed when the controller can be used; common clients wait 0.4 s for an answer."""
+
+    CASE = """      CASE {0}:
+        t := NumToStr(n + {0}, 2);
+        IF StrLen(t) > {1} THEN
+          i := StrFind(t, 1, "{1}");
+          n := Round(Sqrt(Abs(i * {0}) + {0}) \\Dec:=2);
+        ELSE
+          n := Trunc(Pow({1} + 1, 2));
+        ENDIF
+"""
+    MODULE = """MODULE M{0}
+  LOCAL VAR num n := 0;
+  PROC main()
+    VAR string t;
+    VAR num i;
+    WHILE TRUE DO
+      TEST n
+{1}      ENDTEST
+      WaitTime 0.1;
+    ENDWHILE
+  ERROR
+    TRYNEXT;
+  ENDPROC
+ENDMODULE
+"""
+
+    def test_a_client_at_once(self):
+        with tempfile.TemporaryDirectory(prefix="rapidc-serve-test-") as folder:
+            paths = []
+            for task in range(2):
+                cases = "".join(self.CASE.format(1000 * task + number, number % 7) for number in range(300))
+                paths.append(os.path.join(folder, f"M{task}.mod"))
+                with open(paths[-1], "w", encoding="utf-8") as file:
+                    file.write(self.MODULE.format(task, cases))
+            # nothing that an earlier run has compiled
+            with unittest.mock.patch.dict(os.environ, RAPIDC_CACHE=os.path.join(folder, "cache")):
+                server = Serve(paths[0], options=(f"--task=T_AUX={paths[1]}",))
+            try:
+                client = server.client(1)
+                start = time.monotonic()
+                self.assertEqual(client.get("/rw/panel/opmode").status, 200)
+                self.assertLess(time.monotonic() - start, 0.4 * SLOW)
+                client.close()
+            finally:
+                server.stop()
+
 
 class Platform(ServeCase):
     OPTIONS = ("--no-program-start",)

@@ -558,6 +558,54 @@ ENDMODULE
             self.eventually(lambda: self.value("T_ROB1/M/entered") == '"Ada"')
 
 
+class Entries(RapidCase):
+    MODULE = """MODULE M
+  CONST listitem parts{3} := [["", "Bolt"], ["", "Nut"], ["", "Plate"]];
+  PERS num count := 0;
+  PERS num share := 0;
+  PERS num item := 0;
+  PERS num button := 0;
+  PROC main()
+    VAR btnres pressed;
+    WHILE TRUE DO
+      count := UINumEntry(\\Header:="Count" \\InitValue:=5 \\MinValue:=1 \\MaxValue:=20 \\AsInteger);
+      share := UINumEntry(\\Header:="Share" \\MinValue:=0.1 \\MaxValue:=0.7);
+      item := UIListView(\\Result:=pressed \\Header:="Part", parts \\Buttons:=btnOKCancel \\DefaultIndex:=2);
+      button := pressed;
+    ENDWHILE
+  ENDPROC
+ENDMODULE
+"""
+    OPTIONS = ()
+
+    def test_answers_that_do_not_fit(self):
+        """RAPID manual: UINumEntry takes numbers from MinValue to MaxValue, with AsInteger whole ones, and the limit itself though it is no
+        binary fraction; UIListView: an item, a button or both. Another answer is 400, and the same dialog stays open."""
+        active = "/rw/rapid/uiinstr/active"
+        for client in self.both():
+            self.eventually(lambda: client.get(active).status == 200)
+
+            def stack():
+                return client.get(active).values()["stack"]
+
+            def answer(value):
+                path = f"{active}/param/{urllib.parse.quote(stack())}/Result" + ("?action=set" if client.dialect == 1 else "")
+                return client.post(path, {"value": value}).status
+            for refused, taken, checked in ((("0", "21", "3.5", "1E300"), "20", {"count": "20"}), (("0.09", "0.71"), "0.7", {"share": "0.7"}),
+                                            (("0", "4", "1.5", "1 Yes", "Help"), "3 Cancel", {"item": "3", "button": "5"})):
+                before = stack()
+                for wrong in refused:
+                    self.assertEqual((wrong, answer(wrong), stack()), (wrong, 400, before))
+                shown = {entry.title: entry.values["value"] for entry in
+                         client.get(f"{active}/params/{urllib.parse.quote(before)}").entries("rap-uiparams-li")}
+                if "count" in checked:
+                    self.assertEqual([shown[name] for name in ("InitValue", "MinValue", "MaxValue")], ["5", "1", "20"])
+                self.assertEqual(answer(taken), 204)
+                for name, value in checked.items():
+                    self.eventually(lambda: self.value("T_ROB1/M/" + name) == value)
+                self.eventually(lambda: client.get(active).status == 200 and stack() != before)
+
+
 class Queues(RapidCase):
     MODULE = """MODULE M
   PROC main()

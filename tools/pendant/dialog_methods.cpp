@@ -183,7 +183,13 @@ Json DialogArea::answer(const Json& params) {
         break;
     }
     case rt::DialogKind::List: answer = answerToList(dialog, params); break;
-    case rt::DialogKind::Number: answer = fmt::format("{}", numberOf(params, "number")); break;
+    case rt::DialogKind::Number: {
+        const double number = numberOf(params, "number");
+        if (!service::takesNumber(dialog, number))
+            badRequest("The number is not one of those that may be entered");
+        answer = fmt::format("{}", number);
+        break;
+    }
     case rt::DialogKind::Text: {
         const std::string text = textOf(params, "text");
         if (text.size() > rt::kStringCapacity)

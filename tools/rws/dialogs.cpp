@@ -4,6 +4,7 @@
 #include "runtime/base/text_util.h"
 #include "runtime/value/value_text.h"
 #include "tools/rws/rapid_support.h"
+#include "tools/service/dialog_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -82,6 +83,17 @@ std::string listText(const std::vector<std::string>& items) {
     return out + "]";
 }
 
+/// The value that the operator begins with, under the name of its argument.
+std::pair<std::string, std::string> initialOf(const rt::Dialog& dialog) {
+    switch (dialog.kind) {
+    case rt::DialogKind::Text: return {"InitString", quoted(dialog.initial)};
+    case rt::DialogKind::List: return {"DefaultIndex", dialog.initial};
+    case rt::DialogKind::Choice: return {"DefaultBtn", dialog.initial};
+    case rt::DialogKind::Number: break;
+    }
+    return {"InitValue", dialog.initial};
+}
+
 /// The parameters of the instruction that a client shows, by name.
 std::vector<std::pair<std::string, std::string>> parametersOf(const rt::Dialog& dialog) {
     std::vector<std::pair<std::string, std::string>> list;
@@ -98,6 +110,9 @@ std::vector<std::pair<std::string, std::string>> parametersOf(const rt::Dialog& 
     if (!dialog.choices.empty()) list.emplace_back("BtnArray", listText(dialog.choices));
     if (!dialog.items.empty()) list.emplace_back("ListItems", listText(dialog.items));
     if (!dialog.image.empty()) list.emplace_back("Image", quoted(dialog.image));
+    if (!dialog.initial.empty()) list.emplace_back(initialOf(dialog));
+    if (dialog.least) list.emplace_back("MinValue", fmt::format("{}", *dialog.least));
+    if (dialog.most) list.emplace_back("MaxValue", fmt::format("{}", *dialog.most));
     static constexpr const char* kIcons[] = {"", "Information", "Warning", "Error"};
     const auto* icon = std::find(std::begin(kIcons), std::end(kIcons), dialog.icon);
     list.emplace_back("Icon", std::to_string(icon == std::end(kIcons) ? 0 : icon - std::begin(kIcons)));
@@ -124,6 +139,21 @@ std::size_t buttonOf(const rt::Dialog& dialog, double value) {
     return isPlace && static_cast<double>(place) == value && isShown(place - 1) ? place : 0;
 }
 
+/// "3", "3 Cancel" or "Cancel": an item, a button, or both. None: the list shows no such item or button.
+std::optional<std::string> itemOf(const rt::Dialog& dialog, const std::string& text) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    const std::string button(rt::trimmed(std::string_view(text).substr(digits)));
+    if (digits == 0 && button.empty()) return std::nullopt;
+    const auto isItem = [&dialog](std::size_t item) {
+        return item >= 1 && item <= dialog.items.size() && !dialog.items[item - 1].empty();
+    };
+    if (digits > 0 && (digits > 9 || !isItem(std::stoul(text.substr(0, digits))))) return std::nullopt;
+    if (button.empty()) return text;
+    const bool isShown = std::any_of(dialog.choices.begin(), dialog.choices.end(),
+                                     [&button](const auto& choice) { return sameName(choice, button); });
+    return isShown ? std::optional(text) : std::nullopt;
+}
+
 /// The answer as the dialog takes it. None: it makes no sense.
 std::optional<std::string> answerOf(const rt::Dialog& dialog, const std::string& given) {
     double number = 0;
@@ -136,11 +166,9 @@ std::optional<std::string> answerOf(const rt::Dialog& dialog, const std::string&
         const std::size_t button = isNumber ? buttonOf(dialog, number) : 0;
         return button > 0 ? std::optional(std::to_string(button)) : std::nullopt;
     }
-    case rt::DialogKind::Number: return isNumber ? std::optional(text) : std::nullopt;
-    case rt::DialogKind::List: {
-        const bool isItem = isNumber && number >= 1 && number <= static_cast<double>(dialog.items.size());
-        return isItem ? std::optional(text) : std::nullopt;
-    }
+    case rt::DialogKind::Number:
+        return isNumber && service::takesNumber(dialog, number) ? std::optional(text) : std::nullopt;
+    case rt::DialogKind::List: return itemOf(dialog, text);
     case rt::DialogKind::Text: break;
     }
     const bool isQuoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
 
 using namespace rt;
 using lib::Breaks;
@@ -79,6 +81,15 @@ bool tune(const NumberWanted<Number>& wanted, const std::string& answer, Number&
     return true;
 }
 
+/// A limit for clients: 0.7 of type num is 0.7 for them, too, not 0.69999998807907104.
+double limitOf(float value) {
+    double read = value;
+    return parseRapidNumber(fmt::format("{}", value), read) ? read : value;
+}
+double limitOf(double value) {
+    return value;
+}
+
 template <class Number>
 Status enterNumber(TaskCore* task, const char* instruction, Number* result, const MessageText& text,
                    const NumberWanted<Number>& wanted, const Breaks& breaks) {
@@ -90,10 +101,11 @@ Status enterNumber(TaskCore* task, const char* instruction, Number* result, cons
     Number present = wanted.initial ? *wanted.initial : Number(0);
     dialog.hint = hintFor(wanted, present);
     if (wanted.initial) dialog.initial = textOf(*wanted.initial);
-    if (wanted.least) dialog.least = *wanted.least;
-    if (wanted.most) dialog.most = *wanted.most;
-    if (wanted.increment) dialog.increment = *wanted.increment;
+    if (wanted.least) dialog.least = limitOf(*wanted.least);
+    if (wanted.most) dialog.most = limitOf(*wanted.most);
+    if (wanted.increment) dialog.increment = limitOf(*wanted.increment);
     dialog.isWhole = wanted.integer;
+    dialog.isDnum = std::is_same_v<Number, double>;
     const auto accept = [&](const std::string& answer) {
         if (answer.empty() && wanted.initial) return Reply::yes();
         if (tune(wanted, answer, present)) {

@@ -165,7 +165,7 @@ void Configuration::addRobots(Controller& controller) {
             if (!isSingle)
                 ensureText(owner, "use_robot_type",
                            robotTypeName(model.name, static_cast<std::size_t>(number - 1)));
-            ensureText(owner, attribute, fmt::format("rob{}_{}", number, axis + 1));
+            ensureText(owner, attribute, robotAxisName(unit, static_cast<std::size_t>(number - 1), axis + 1));
             addAxis(model, axis, owner.text(attribute));
         }
         addBaseFrame(motionInstance("ROBOT", unit), model.baseFrame);

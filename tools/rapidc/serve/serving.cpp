@@ -9,6 +9,20 @@
 
 namespace rapidc::serve {
 
+namespace {
+
+constexpr auto kPrompt =
+    std::chrono::milliseconds(100); ///< a fourth of the time that common clients wait for an answer
+constexpr auto kLongestWait =
+    std::chrono::seconds(15); ///< clients that start the controller wait 20 s for its addresses
+constexpr int kPromptCommands = 2;
+
+std::string hostOf(const ServeSettings& settings) {
+    return settings.address == "0.0.0.0" ? "127.0.0.1" : settings.address;
+}
+
+} // namespace
+
 Serving::Serving(const ServeSettings& settings, service::VirtualController& controller)
     : settings_(settings), controller_(controller), rapid_(controller), plant_(controller, rapid_.access()),
       subscriptions_(
@@ -89,15 +103,35 @@ std::string Serving::open() {
 
 void Serving::start() {
     server_.every(std::chrono::seconds(1), [this] { door_->tick(); });
-    server_.every(std::chrono::milliseconds(20), [this] { subscriptions_.tick(); });
+    server_.every(std::chrono::milliseconds(20), [this] {
+        subscriptions_.tick();
+        announceWhenPrompt();
+    });
     server_.every(std::chrono::milliseconds(200), [this] {
         controller_.post([this] { controller_.observers().changed(service::Change::Interval); });
     });
     server_.every(pendant::PendantService::kTick, [this] { pendant_.tick(); });
-    const std::string host = settings_.address == "0.0.0.0" ? "127.0.0.1" : settings_.address;
+    const std::string host = hostOf(settings_);
     subscriptions_.setBase(rws::Dialect::V1, fmt::format("http://{}:{}", host, httpPort_));
     subscriptions_.setBase(rws::Dialect::V2, fmt::format("https://{}:{}", host, httpsPort_));
+    started_ = std::chrono::steady_clock::now();
     server_.start();
+}
+
+void Serving::announceWhenPrompt() {
+    if (isAnnounced_) return;
+    if (prompt_ >= kPromptCommands || std::chrono::steady_clock::now() - started_ > kLongestWait)
+        return announce();
+    if (asked_.exchange(true)) return;
+    controller_.post([this, posted = std::chrono::steady_clock::now()] {
+        prompt_ = std::chrono::steady_clock::now() - posted < kPrompt ? prompt_ + 1 : 0;
+        asked_ = false;
+    });
+}
+
+void Serving::announce() {
+    isAnnounced_ = true;
+    const std::string host = hostOf(settings_);
     fmt::print("{{\"http\":\"http://{0}:{1}\",\"https\":\"https://{0}:{2}\",\"web\":\"http://{0}:{3}\"}}\n",
                host, httpPort_, httpsPort_, webPort_);
     std::fflush(stdout);

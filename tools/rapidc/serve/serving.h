@@ -9,6 +9,8 @@
 #include "tools/rws/rapid_services.h"
 #include "tools/rws/subscriptions.h"
 
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -27,10 +29,14 @@ class Serving {
     std::string open();
     /// Whether an earlier process has left changed system parameters: VirtualController::reopen() takes them.
     bool hasKeptParameters() { return plant_.configuration().takeKept(); }
-    /// Begins to answer, and writes the addresses to standard output: one line of JSON.
+    /// Begins to answer. As soon as answers come without delay it writes the addresses to standard output: one line of JSON.
     void start();
 
   private:
+    /// Announces when the controller has executed several commands in a row at once: a large routine that is compiled when the
+    /// program starts would keep the first clients waiting for longer than they do.
+    void announceWhenPrompt();
+    void announce();
     std::string listen(const char* option, http::Endpoint endpoint, uint16_t& port);
 
     const ServeSettings& settings_;
@@ -43,7 +49,11 @@ class Serving {
     std::unique_ptr<rws::FrontDoor> door_;
     pendant::PendantService pendant_;
     service::Observers::Token observer_ = 0;
-    http::Server server_; ///< last: it ends first
+    std::chrono::steady_clock::time_point started_;
+    bool isAnnounced_ = false;        ///< on the thread of the server
+    std::atomic<int> prompt_ = 0;     ///< commands in a row that were executed at once
+    std::atomic<bool> asked_ = false; ///< a command is on its way
+    http::Server server_;             ///< last: it ends first
     uint16_t httpPort_ = 0, httpsPort_ = 0, webPort_ = 0;
 };
 

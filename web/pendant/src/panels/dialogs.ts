@@ -59,8 +59,13 @@ export class DialogLayer {
 
     private fill(dialog: Dialog, body: HTMLElement, buttons: HTMLElement): void {
         const choices = dialog.choices.map((label, index) => ({ label, choice: index + 1 })).filter(({ label }) => label !== "");
+        const chosen = (): object => {
+            const items = [...body.querySelectorAll(".list-item")];
+            const item = items.findIndex((each) => each.getAttribute("aria-current") === "true") + 1;
+            return item > 0 ? { item } : {};
+        };
         const choose = choices.map(({ label, choice }, index) =>
-            button({ label, class: index === 0 ? "primary" : "", onClick: () => this.answer(dialog, { choice }) }),
+            button({ label, class: index === 0 ? "primary" : "", onClick: () => this.answer(dialog, { choice, ...chosen() }) }),
         );
         if (dialog.kind === "number" || dialog.kind === "text") {
             this.fillInput(dialog, body, buttons);
@@ -68,12 +73,17 @@ export class DialogLayer {
         }
         if (dialog.kind === "list") {
             const standard = Number(dialog.initial);
-            const items = dialog.items.map((text, index) =>
+            // With buttons the item is only chosen, and a button answers, which may be any of them; without buttons the item answers.
+            const pick = (index: number): void => {
+                if (choose.length === 0) this.answer(dialog, { item: index + 1 });
+                else items.forEach((each, place) => (place === index ? each.setAttribute("aria-current", "true") : each.removeAttribute("aria-current")));
+            };
+            const items: HTMLElement[] = dialog.items.map((text, index) =>
                 h("button", {
                     class: "list-item",
                     text,
                     attrs: { type: "button", "aria-current": index + 1 === standard ? "true" : undefined },
-                    on: { click: () => this.answer(dialog, { item: index + 1 }) },
+                    on: { click: () => pick(index) },
                 }),
             );
             body.append(h("div", { class: "dialog-list" }, ...items));

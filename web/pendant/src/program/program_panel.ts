@@ -268,8 +268,8 @@ export class ProgramPanel {
 
     private async modifyPosition(): Promise<void> {
         const params = { task: this.task, module: this.module, line: this.code.line };
-        const { name, value } = await this.model.connection.request<{ name: string; value: string }>("teach.modify", params);
-        notice("info", `Position ${name} modified`, value);
+        const { inText } = await this.model.connection.request<{ inText: boolean }>("teach.modify", params);
+        notice("info", `Position modified: ${params.module}, line ${params.line}`, inText ? "The text of the module has changed" : "");
     }
 
     private showCaret(line: number): void {
