@@ -96,7 +96,7 @@ ENDMODULE
                 client = server.client(1)
                 start = time.monotonic()
                 self.assertEqual(client.get("/rw/panel/opmode").status, 200)
-                self.assertLess(time.monotonic() - start, 0.4 * SLOW)
+                self.assertLess(time.monotonic() - start, 0.8 * SLOW) # it was 1.3 s on an idle machine
                 client.close()
             finally:
                 server.stop()
