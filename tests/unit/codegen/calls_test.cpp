@@ -127,6 +127,37 @@ TEST_CASE("routines that are paced by natives get few passes, others all", "[cod
     CHECK_FALSE(isPaced(sometimes));
 }
 
+TEST_CASE("routines of many basic blocks get few passes: LLVM's time grows with the square of their number",
+          "[codegen]") {
+    const auto isPaced = [](int branches) {
+        std::string text = R"(routine @"r" "r" in "M" exported f32 (f32 "x") {
+  local 0 f32 "x" param
+  local 1 f32 "sum"
+  stmt 0 plain 1:1 1:2
+  b0:
+    stmt 0
+    %place = local 0
+    %x = load f32 %place
+    %whole = ftosi i32 %x
+    %sum = local 1
+    store f32 %x, %sum
+    br b1
+)";
+        for (int i = 1; i <= branches; ++i) {
+            const std::string n = std::to_string(i), next = "b" + std::to_string(2 * i + 1);
+            text += "  b" + std::to_string(2 * i - 1) + ":\n    %bound" + n + " = const i32 " + n +
+                    "\n    %less" + n + " = ile %whole, %bound" + n + "\n    condbr %less" + n + ", b" +
+                    std::to_string(2 * i) + ", " + next + "\n  b" + std::to_string(2 * i) + ":\n    %old" +
+                    n + " = load f32 %sum\n    %new" + n + " = fmul %old" + n + ", %x\n    store f32 %new" +
+                    n + ", %sum\n    br " + next + "\n";
+        }
+        text += "  b" + std::to_string(2 * branches + 1) + ":\n    %all = load f32 %sum\n    ret %all\n}\n";
+        return count(llvmOf(text, true), "\"rapidc-paced\"") > 0;
+    };
+    CHECK_FALSE(isPaced(100));
+    CHECK(isPaced(300)); // two blocks each
+}
+
 TEST_CASE("long routines are not inlined where a long routine calls them outside of loops", "[codegen]") {
     const auto program = [](int callerLength, int calleeLength) {
         const auto sum = [](int length) {
