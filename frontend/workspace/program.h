@@ -47,6 +47,8 @@ class Program {
     /// call update().
     bool updateAround(const std::string& path,
                       const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
+    /// Whether updateAround() has left something to check.
+    bool isSketched() const { return session_ && !session_->isComplete(); }
     bool isUpToDate() const { return !stale_ && changed_.empty() && session_->isComplete(); }
 
     /// Of the last update that changed something; no two updates of any programs have the same.

@@ -158,6 +158,11 @@ Workspace::programAround(const std::string& path,
     return programOf(path);
 }
 
+bool Workspace::isSketched() const {
+    return std::any_of(programs_.begin(), programs_.end(),
+                       [](const auto& program) { return program->isSketched(); });
+}
+
 Program* Workspace::ownerOf(const std::string& path) {
     for (const auto& program : programs_)
         program->update();

@@ -44,6 +44,8 @@ class Workspace {
     /// The same for an answer at a place in the module that cannot wait: see Program::updateAround.
     Program* programAround(const std::string& path,
                            const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
+    /// Whether the last answer of that kind has left something to check.
+    bool isSketched() const;
     /// Gives an open file that no program reads one of its own, if it is a module, a program file or a configuration. A program
     /// file always gets one.
     void adopt(const std::string& path);

@@ -200,21 +200,25 @@ class Writer {
 };
 
 /// Messages in their order; when none is waiting, or when one has been waited for long enough, diagnostics. What takes long
-/// waits for a pause.
+/// waits for a pause. An answer while typing leaves a moment for the next letter.
 void work(Server& server, Inbox& inbox, const Writer& writer, std::atomic<int64_t>& client) {
     using std::chrono::milliseconds;
-    constexpr milliseconds kLongest(400), kPause(300), kIdle(100);
+    constexpr milliseconds kLongest(400), kPause(300), kIdle(100), kMoment(15);
     Clock::time_point upToDate = Clock::now(), lastMessage = upToDate;
     const auto waiting = [&inbox] { return inbox.hasMessages(); };
     bool ended = false;
     while (!ended && !server.hasEnded() && !writer.isBroken()) {
-        if (server.isBehind() && (!waiting() || Clock::now() - upToDate > kLongest)) {
+        const bool isTyping = server.isTyping() && Clock::now() - lastMessage < kMoment;
+        const bool isFree = !waiting() && !isTyping;
+        if (server.isBehind() && (isFree || Clock::now() - upToDate > kLongest)) {
             const bool quiet = Clock::now() - lastMessage >= kPause;
             server.catchUp(quiet, waiting() ? std::function<bool()>() : waiting);
             upToDate = Clock::now();
         }
         Message message;
-        const auto deadline = server.isBehind() ? lastMessage + kPause : Clock::now() + kIdle;
+        const auto deadline = isTyping            ? lastMessage + kMoment
+                              : server.isBehind() ? lastMessage + kPause
+                                                  : Clock::now() + kIdle;
         if (!inbox.take(message, deadline, ended)) continue;
         if (!server.isBehind()) upToDate = Clock::now();
         lastMessage = Clock::now();

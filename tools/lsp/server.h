@@ -30,6 +30,8 @@ class Server {
     void catchUp(bool whole, const std::function<bool()>& interrupted = nullptr);
     /// Whether catchUp has something to do.
     bool isBehind() const;
+    /// The last answer was given while the user types, before the rest of the module was checked: the next edit is near.
+    bool isTyping() const { return state_.workspace.isSketched(); }
 
     bool hasEnded() const { return phase_ == Phase::Ended; }
     /// After the end of the conversation: 0 when the client has asked for a shutdown, else 1.
