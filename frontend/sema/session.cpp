@@ -139,11 +139,13 @@ CheckPlan Session::State::takeTree(SessionTask& task, size_t index,
     CheckPlan plan = std::move(earlier);
     const bool dependedOnOrder = analyzer->task().dependsOnOrder;
     const auto isOpen = [&](size_t i) { return program->facts[analyzer->task().files[i].slot]->open; };
-    bool othersOpen = false;
-    for (size_t i = 0; i < task.files.size(); ++i)
-        othersOpen = othersOpen || (i != index && isOpen(i));
-    if (!plan.isMade && othersOpen && analyzer->allowsAlone()) plan.offer = analyzer->offerOf(index);
-    if (!plan.isMade) plan.held = analyzer->holdUses(index);
+    if (!plan.isMade) {
+        bool othersOpen = false;
+        for (size_t i = 0; i < task.files.size(); ++i)
+            othersOpen = othersOpen || (i != index && isOpen(i));
+        if (othersOpen && analyzer->allowsAlone()) plan.offer = analyzer->offerOf(index);
+        plan.held = analyzer->holdUses(index);
+    }
     plan.likeness = std::min(plan.likeness, analyzer->replaceTree(index, std::move(tree), broken));
     plan.isMade = true;
     plan.alone = plan.likeness != Analyzer::Likeness::None && !dependedOnOrder;
