@@ -21,7 +21,8 @@ struct UnitImage;
 
 namespace codegen {
 
-inline constexpr size_t kLargeProgram = 15'000;
+/// IR instructions of a program from which on it takes seconds to compile it as a whole, and from which on a person notices.
+inline constexpr size_t kLargeProgram = 15'000, kSmallProgram = 1'500;
 
 /// Makes a routine of the module ready to be compiled. False and a message when it is not well formed.
 using PrepareRoutine = std::function<bool(uint32_t routine, std::string& error)>;

@@ -6,6 +6,12 @@
 #include "codegen/routine_emitter.h"
 
 namespace codegen {
+namespace {
+
+/// Statements of a routine with RETRY or TRYNEXT from which on its variables stay in memory.
+constexpr size_t kManyWaysBack = 100;
+
+} // namespace
 
 bool RoutineEmitter::isHandled(const ir::Inst& inst) const {
     return routine_.errorHandler != ir::kNone && inst.stmt < routine_.statements.size() &&
@@ -129,6 +135,7 @@ void RoutineEmitter::tryNext(const ir::Inst&) {
 
 /// Jumps to `where` of the statement that failed.
 void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
+    if (m_.options().optimise && routine_.statements.size() > kManyWaysBack) keepInMemory();
     BasicBlock* never = newBlock("never");
     auto* branch = b_.CreateSwitch(b_.CreateLoad(b_.getInt32Ty(), failed_), never);
     for (uint32_t s = 0; s < routine_.statements.size(); ++s) {
@@ -139,6 +146,31 @@ void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
     }
     b_.SetInsertPoint(never);
     b_.CreateUnreachable();
+}
+
+/// Reads all variables in a way that LLVM leaves alone, here where it costs nothing, so that it does not put them into registers: each
+/// would be alive at every way back, with a phi node in nearly every block. The main loop of a driver (900 lines, 30 counters) had 6,400
+/// of them, and the register allocator took 13 s.
+void RoutineEmitter::keepInMemory() {
+    for (Value* local : locals_)
+        if (auto* slot = llvm::dyn_cast<llvm::AllocaInst>(local))
+            keepInMemory(slot, slot->getAllocatedType());
+    for (llvm::AllocaInst* slot : spills_)
+        if (slot) keepInMemory(slot, slot->getAllocatedType());
+}
+
+void RoutineEmitter::keepInMemory(Value* address, llvm::Type* type) {
+    constexpr uint64_t kFew = 16; // larger arrays stay in memory anyway
+    if (type->isSingleValueType()) {
+        b_.CreateLoad(type, address, true);
+    } else if (auto* record = llvm::dyn_cast<llvm::StructType>(type)) {
+        for (unsigned i = 0; i < record->getNumElements(); ++i)
+            keepInMemory(b_.CreateStructGEP(record, address, i), record->getElementType(i));
+    } else if (auto* array = llvm::dyn_cast<llvm::ArrayType>(type);
+               array && array->getNumElements() <= kFew) {
+        for (unsigned i = 0; i < array->getNumElements(); ++i)
+            keepInMemory(b_.CreateConstInBoundsGEP2_32(array, address, 0, i), array->getElementType());
+    }
 }
 
 void RoutineEmitter::emitErrorBlocks() {

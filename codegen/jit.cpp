@@ -60,9 +60,11 @@ std::vector<NativeSymbol> resolve(const llvm::Module& compiled, const ir::Module
 
 std::unique_ptr<JitProgram> jit(const ir::Module& module, const CodegenOptions& given,
                                 const std::vector<NativeSymbol>& symbols, std::string& error) {
-    if (module.instructionCount() > given.partsAbove) return lazyJit(module, given, symbols, error);
     CodegenOptions options = given;
-    if (given.isExecutedOnce && ir::mostExecuted(module) <= kFewInstructions) options.optimise = false;
+    const size_t size = module.instructionCount();
+    if (given.isExecutedOnce && size <= kLargeProgram && ir::mostExecuted(module) <= kFewInstructions)
+        options.optimise = false;
+    if (size > given.partsAbove) return lazyJit(module, options, symbols, error);
     auto machine = makeTargetMachine(options, error);
     if (!machine) return nullptr;
     llvm::LLVMContext context;

@@ -185,7 +185,7 @@ class LazyProgram : public JitProgram {
         part.routines = {order.routine};
         part.settingTaskFrame = settingTaskFrame_;
         part.countsCalls = options_.optimise && !optimise;
-        if (optimise) part.copies = copiesFor(module_, part.routines);
+        if (optimise) part.copies = copiesFor(module_, part.routines, kLargestHotCopy);
         std::erase_if(part.copies, [&](uint32_t copy) { return released_[copy]; });
         for (const uint32_t copy : part.copies)
             prepare(copy);

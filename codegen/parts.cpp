@@ -9,12 +9,13 @@ namespace {
 
 /// IR instructions of a part, and of a routine that gets one of its own.
 constexpr size_t kLargestPart = 8000, kLargeRoutine = 4000;
-/// Of a routine that is copied into another part, and of all copies in a part.
-constexpr size_t kLargestCopy = 150, kMostCopied = 1500;
+/// Of all copies in a part.
+constexpr size_t kMostCopied = 1500;
 
 } // namespace
 
-std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines) {
+std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint32_t>& routines,
+                                size_t largest) {
     std::vector<bool> known(module.routines.size(), false);
     for (const uint32_t routine : routines)
         known[routine] = true;
@@ -22,11 +23,11 @@ std::vector<uint32_t> copiesFor(const ir::Module& module, const std::vector<uint
     size_t size = 0;
     for (size_t next = 0; next < callers.size(); ++next) {
         const ir::Routine& caller = module.routines[callers[next]];
-        const size_t largest = isShort(caller) || hasLoop(module, caller) ? kLargestCopy : kInlinedAnywhere;
+        const size_t limit = isShort(caller) || hasLoop(module, caller) ? largest : kInlinedAnywhere;
         for (const ir::Inst& inst : caller.insts) {
             if (inst.op != ir::Op::Call || known[inst.index]) continue;
             const size_t more = module.routines[inst.index].insts.size();
-            if (more > largest || size + more > kMostCopied) continue;
+            if (more > limit || size + more > kMostCopied) continue;
             known[inst.index] = true;
             size += more;
             copies.push_back(inst.index);
@@ -61,7 +62,7 @@ std::vector<Part> divide(const ir::Module& module, const CodegenOptions& options
     }
     const auto setting = std::make_shared<const std::vector<bool>>(routinesSettingTaskFrame(module, {}));
     for (Part& part : parts) {
-        part.copies = copiesFor(module, part.routines);
+        part.copies = copiesFor(module, part.routines, kLargestCopy);
         part.settingTaskFrame = setting;
     }
     return parts;

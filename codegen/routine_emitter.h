@@ -164,6 +164,8 @@ class RoutineEmitter {
     void handlerCall(const ir::Inst& inst, HandlerCall callee);
     llvm::ConstantInt* statusValue(rt::Status value) { return b_.getInt32(static_cast<uint32_t>(value)); }
     void retry(const ir::Inst& inst);
+    void keepInMemory();
+    void keepInMemory(Value* address, llvm::Type* type);
     void tryNext(const ir::Inst& inst);
     void resumeSwitch(ir::BlockId ir::Statement::* where);
     BasicBlock* raiseFrom(const ir::Inst& inst, Value* number);

@@ -32,6 +32,10 @@ std::vector<std::string> runPasses(Module& module, uint32_t routine, const PassO
 std::vector<std::string> runPasses(Module& module, const PassOptions& options,
                                    const std::vector<std::string_view>& names);
 
+/// Replaces parameters that get the same constant, or the address of the same global, from every call of the program. To be called
+/// before the passes, when all routines are there; release profile only.
+void foldParameters(Module& module);
+
 // Passes look at nothing of other routines but their signatures, so routines may be transformed in any order.
 
 /// Removes unreachable blocks, threads jumps through empty blocks, merges a block into its only predecessor.

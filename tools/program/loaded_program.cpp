@@ -21,6 +21,7 @@ LoadedProgram::~LoadedProgram() = default;
 
 bool LoadedProgram::compile(const CompileSettings& settings, std::string& error) {
     options_ = codegenOptions(settings.optimise);
+    if (settings.startsAtOnce) options_.partsAbove = codegen::kSmallProgram;
     if (settings.inParts) options_.partsAbove = 0;
     options_.interpretsAll = settings.interpreted;
     options_.isExecutedOnce = settings.executedOnce;

@@ -105,6 +105,7 @@ bool lowerToIr(Compilation& compilation, const std::string& name, bool stepping,
     const bool lowered = rapid::lower::lowerProgram(*compilation.program, options, compilation.sink, out);
     rapid::lint::applyLevels(compilation.warningLevels, compilation.sink);
     if (!lowered || compilation.sink.hasErrors()) return false;
+    if (!stepping) ir::foldParameters(out);
     if (out.instructionCount() < passesBelow)
         return runIrPasses(out, irPasses(compilation, stepping), compilation.sink);
     return reportFindings(ir::verifyTables(out), compilation.sink);

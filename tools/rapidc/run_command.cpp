@@ -101,6 +101,7 @@ int run(RunSettings& settings) {
                                            .stepping = settings.stepping,
                                            .optimise = !settings.noOptimise,
                                            .inParts = settings.inParts,
+                                           .startsAtOnce = !settings.options.realtime,
                                            .interpreted = settings.interpreted,
                                            .executedOnce = settings.options.cycles == 1 && !settings.stepping,
                                            .keepsProgram = settings.interactive},

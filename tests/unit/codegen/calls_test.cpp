@@ -154,8 +154,44 @@ TEST_CASE("routines of many basic blocks get few passes: LLVM's time grows with 
         text += "  b" + std::to_string(2 * branches + 1) + ":\n    %all = load f32 %sum\n    ret %all\n}\n";
         return count(llvmOf(text, true), "\"rapidc-paced\"") > 0;
     };
-    CHECK_FALSE(isPaced(100));
-    CHECK(isPaced(300)); // two blocks each
+    CHECK_FALSE(isPaced(300));
+    CHECK(isPaced(600)); // two blocks each
+}
+
+TEST_CASE(
+    "variables of a routine with many ways back from its handler stay in memory: no phi for each at each way",
+    "[codegen]") {
+    constexpr int kVariables = 10;
+    // Statement n changes one of the variables, may fail, and the handler goes back to it or to the next one.
+    const auto phiNodes = [](int statements, const std::string& lastOfHandler) {
+        std::string locals, first, rows, blocks;
+        for (int v = 0; v < kVariables; ++v) {
+            const std::string n = std::to_string(v);
+            locals += "  local " + n + " f32 \"v" + n + "\"\n";
+            first += "    %v" + n + " = local " + n + "\n    store f32 %one, %v" + n + "\n";
+        }
+        for (int i = 0; i < statements; ++i) {
+            const std::string n = std::to_string(i), next = "b" + std::to_string(i + 2);
+            rows += "  stmt " + n + " plain 1:1 1:2 handled start b" + std::to_string(i + 1) + " next " +
+                    next + "\n";
+            blocks += "  b" + std::to_string(i + 1) + ":\n    stmt " + n + "\n    %place" + n + " = local " +
+                      std::to_string(i % kVariables) + "\n    %old" + n + " = load f32 %place" + n +
+                      "\n    %got" + n + " = native @\"rt_fallible\" (%old" + n + ")\n    store f32 %got" +
+                      n + ", %place" + n + "\n    br " + next + "\n";
+        }
+        const std::string last = std::to_string(statements + 1), handler = std::to_string(statements + 2);
+        std::string text =
+            "native @\"rt_fallible\" plain f32 (f32)\nroutine @\"r\" \"r\" in \"M\" exported f32 () {\n";
+        text += locals + rows + "  errorhandler b" + handler + "\n  b0:\n    %one = const f32 1\n" + first +
+                "    br b1\n";
+        text += blocks + "  b" + last + ":\n    %end = local 0\n    %all = load f32 %end\n    ret %all\n";
+        text += "  b" + handler + ":\n    stmt 0\n    " + lastOfHandler + "\n}\n";
+        return static_cast<int>(count(llvmOf(text, true), " = phi float "));
+    };
+    for (const std::string back : {"retry", "trynext"}) {
+        CHECK(phiNodes(90, back) >= 90 * kVariables / 2);
+        CHECK(phiNodes(120, back) <= 120 * 2); // what a statement reads is known after the one before it
+    }
 }
 
 TEST_CASE("long routines are not inlined where a long routine calls them outside of loops", "[codegen]") {
