@@ -135,15 +135,6 @@ void discountColdCalls(llvm::Module& module) {
     }
 }
 
-/// Basic blocks of a routine from which on it gets few passes: the vectorizer of straight code and the register allocator need time
-/// in proportion to the square of their number.
-constexpr size_t kManyBlocks = 1000;
-
-void findManyBlocks(llvm::Module& module) {
-    for (llvm::Function& function : module)
-        if (function.size() > kManyBlocks && !function.hasOptNone()) function.addFnAttr(kPaced);
-}
-
 void optimise(llvm::Module& module, llvm::TargetMachine& machine) {
     llvm::PipelineTuningOptions tuning;
     tuning.LoopVectorization = true;
@@ -215,7 +206,7 @@ bool finish(llvm::Module& module, const CodegenOptions& options, llvm::TargetMac
         replaceWholeDivisions(module);
         return true;
     }
-    findManyBlocks(module);
+    saveWorkOnLargeRoutines(module);
     if (!linkNativeBodies(module, options.bodies, error)) return false;
     discountColdCalls(module);
     optimise(module, machine);

@@ -6,12 +6,18 @@
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/Instructions.h>
 
+#include "codegen/paced_routines.h"
+
 namespace codegen {
 namespace {
 
 /// LLVM instructions of a routine from which on the optimiser and the register allocator cost too much: about 400 movement
 /// instructions. Their time grows with the square of the number of basic blocks.
 constexpr unsigned kHugeFunction = 10'000;
+
+/// Basic blocks of a routine from which on it gets few passes: the vectorizer of straight code and the register allocator need time
+/// in proportion to the square of their number.
+constexpr size_t kManyBlocks = 1000;
 
 /// Different constants that the constant pool of a function finds fast enough.
 constexpr size_t kFewConstants = 500;
@@ -71,6 +77,11 @@ bool spareHugeRoutines(llvm::Module& module) {
         found = true;
     }
     return found;
+}
+
+void saveWorkOnLargeRoutines(llvm::Module& module) {
+    for (llvm::Function& function : module)
+        if (function.size() > kManyBlocks && !function.hasOptNone()) function.addFnAttr(kPaced);
 }
 
 } // namespace codegen
