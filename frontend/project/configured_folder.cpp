@@ -195,6 +195,11 @@ class FolderLoader {
             for (const fs::path& path :
                  parameters.empty() ? std::vector<fs::path>() : files_.list(parameters))
                 if (extensionOf(path) == ".cfg" && !isFolder(path)) out_.configFiles.push_back(path.string());
+        const auto isBare = [](const Task& task) { return task.elsewhere || task.input.files.empty(); };
+        const auto lacks = [](const Task& task) { return !task.input.missingModules.empty(); };
+        if (std::all_of(tasks_.begin(), tasks_.end(), isBare) &&
+            std::any_of(tasks_.begin(), tasks_.end(), lacks))
+            out_.folderWithoutModules = folder_.string();
         for (Task& task : tasks_) {
             if (task.elsewhere) continue;
             const bool onlyForAll = !task.own && !task.motion && tasks_.size() > 1;

@@ -203,6 +203,13 @@ void joinFirst(ProjectInput& out, sema::TaskInput& main) {
     main = {};
 }
 
+void reportNoModule(const ProjectInput& out, Loader& loader) {
+    const std::string& bare = out.folderWithoutModules;
+    loader.report(say::NoInput, {bare.empty() ? "name a file or a folder"
+                                              : "none of those that SYS.cfg names exists; copy them into '" +
+                                                    (fs::path(bare) / "HOME").string() + "'"});
+}
+
 } // namespace
 
 bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskSpec>& extraTasks,
@@ -230,8 +237,8 @@ bool loadProject(const std::vector<std::string>& inputs, const std::vector<TaskS
     const auto isEmpty = [](const sema::TaskInput& task) {
         return task.files.empty() && task.missingModules.empty();
     };
-    if (sink.errorCount() == errorsBefore && isEmpty(out.tasks.front())) loader.report(say::NoInput);
     std::erase_if(out.tasks, isEmpty);
+    if (sink.errorCount() == errorsBefore && out.tasks.empty()) reportNoModule(out, loader);
     return sink.errorCount() == errorsBefore;
 }
 

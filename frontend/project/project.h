@@ -29,6 +29,7 @@ struct ProjectInput {
     /// Set before: the folder of $HOME where one was chosen. Modules that the configuration loads from HOME: are sought
     /// there before the HOME of the input.
     std::string chosenHome;
+    std::string folderWithoutModules; ///< its configuration names modules, and none of them exists
     bool isBackup = false;
     std::vector<std::string> filesRead; ///< modules, programs and what else was opened
 };

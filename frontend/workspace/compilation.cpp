@@ -24,13 +24,13 @@ void findSharedModules(Compilation& compilation) {
                 compilation.sharedModules.insert(config::lowerCase(module->name));
 }
 
-/// The warnings that are wanted: by the project file beside or above the first input, then by the command line.
-void readWarningLevels(const Inputs& inputs, Compilation& compilation) {
+/// The warnings that are wanted: by the project file beside or above `first`, the first input, then by the command line.
+void readWarningLevels(const Inputs& inputs, const std::string& first, Compilation& compilation) {
     lint::WarningLevels& levels = compilation.warningLevels;
-    if (!inputs.paths.empty()) {
-        compilation.filesRead.push_back(project::findSettings(inputs.paths.front()));
-        lint::applySettings(project::loadSettings(inputs.paths.front(), compilation.sink, inputs.texts),
-                            levels, compilation.sink);
+    if (!first.empty()) {
+        compilation.filesRead.push_back(project::findSettings(first));
+        lint::applySettings(project::loadSettings(first, compilation.sink, inputs.texts), levels,
+                            compilation.sink);
     }
     if (!inputs.lint) levels.set("lint", lint::Level::Off);
     for (const std::string& option : inputs.warnings) {
@@ -63,6 +63,13 @@ void check(Compilation& compilation, const Environment& environment, bool onlyDi
     judge.finish(*compilation.program, compilation.tasks);
 }
 
+std::string firstInput(const Inputs& inputs, const std::vector<project::TaskSpec>& specs) {
+    if (!inputs.paths.empty()) return inputs.paths.front();
+    for (const project::TaskSpec& spec : specs)
+        if (!spec.inputs.empty()) return spec.inputs.front();
+    return {};
+}
+
 } // namespace
 
 std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment& environment) {
@@ -74,11 +81,11 @@ std::unique_ptr<Compilation> loadInputs(const Inputs& inputs, const Environment&
         if (const std::string problem = environment.robotProblem(robot.substr(robot.find('=') + 1));
             !problem.empty())
             compilation->usageErrors.push_back("--robot: " + problem);
-    readWarningLevels(inputs, *compilation);
+    readWarningLevels(inputs, firstInput(inputs, specs), *compilation);
     if (!compilation->usageErrors.empty()) return compilation;
     project::ProjectInput input;
     input.chosenHome = inputs.home;
-    if (!inputs.paths.empty())
+    if (!inputs.paths.empty() || !specs.empty())
         project::loadProject(inputs.paths, specs, input, compilation->sink, inputs.texts);
     std::vector<std::string> configFiles = inputs.configFiles;
     for (const std::string& found : input.configFiles)

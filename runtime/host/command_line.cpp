@@ -214,6 +214,12 @@ Option Command::addFlag(const std::string& names, bool& value, const std::string
     return Option(app_->add_flag(names, value, text));
 }
 
+void Command::requireOneOf(const std::string& argument, const std::string& option) const {
+    app_->parse_complete_callback([app = app_, argument, option] {
+        if (app->count(argument) + app->count(option) == 0) throw CLI::RequiredError(argument);
+    });
+}
+
 void Command::hide() const {
     app_->group("");
 }

@@ -47,6 +47,8 @@ class Command {
     Option addOptional(const std::string& name, const std::string& otherwise,
                        std::function<std::string(const std::string&)> take, const std::string& text) const;
     Option addFlag(const std::string& names, bool& value, const std::string& text) const;
+    /// Refuses the command without the argument unless the option is given.
+    void requireOneOf(const std::string& argument, const std::string& option) const;
     void hide() const; ///< leaves it out of the help
 
   private:

@@ -155,6 +155,14 @@ const steps = {
         await bench.shot("hover");
         await bench.page.keyboard.press("Escape");
     },
+    /** A click on the lens of a routine shows its uses. */
+    async lenses(bench) {
+        await bench.expectText(".codelens-decoration", /0 references.*2 references/s, "lenses of main and slot");
+        await bench.page.locator(".codelens-decoration a", { hasText: "2 references" }).click();
+        await bench.expectText(".peekview-widget", /palletizer_test\.modx/, "references at a click on the lens");
+        await bench.shot("references");
+        await bench.page.keyboard.press("Escape");
+    },
     /** F9 at line 9, F5: stops with call stack and locals; continues to the end. */
     async debug(bench) {
         await bench.goTo(9, 1);

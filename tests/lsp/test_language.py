@@ -571,6 +571,13 @@ class Formatting(Language):
         self.assertEqual(self.on_type(text, (1, 0), "\n", 2)[1:3], ["    ", "ENDPROC"])
         self.assertEqual(self.on_type(text, (1, 0), "\n", 3, False)[1:3], ["\t", "ENDPROC"])
 
+    def test_typing_beyond_the_text(self):
+        """Position.line counts the lines of the document: on a line that it does not have nothing is laid out, and the server stays."""
+        text = "MODULE m\n  PROC main()\n  ENDPROC\nENDMODULE\n"
+        for version, line in enumerate((5, 6, 100, 2**31 - 1), 2):
+            for offset, typed in enumerate(("\n", ";")):
+                self.assertEqual("\n".join(self.on_type(text, (line, 0), typed, 2 * version + offset)), text)
+
 
 class Configuration(Language):
     CONFIG = 'EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n      -Name "doGrip" -SignalType "DO" \n#\nEIO_CROSS:\n\n' \

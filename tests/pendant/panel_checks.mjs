@@ -38,6 +38,15 @@ const checks = {
         await page.locator("button.emergency").click();
         return [...problems, ...(await requested(controller, "panel.emergencyStop", { pressed: false }))];
     },
+    async "top bar: one button is named after the emergency stop, also while it is pressed"({ page, controller }) {
+        const count = () => page.getByRole("button", { name: /emergency stop/i }).count();
+        const before = await count();
+        controller.setPanel({ motors: "emergencyStop", emergencyStop: true, running: false });
+        const problems = await until(async () => (await page.locator("button.motors").textContent()).includes("E-stop"), "motors: no E-stop");
+        const [pressed, reset] = [await count(), await page.getByRole("button", { name: /reset/i }).count()]; // the visible word is in the name
+        controller.setPanel({ motors: "on", emergencyStop: false });
+        return [...problems, ...(before === 1 && pressed === 1 && reset === 1 ? [] : [`buttons: ${before}, pressed ${pressed}, reset ${reset}`])];
+    },
     async "refusals are shown with their remedy"({ page, controller }) {
         controller.setPanel({ motors: "off", running: false });
         await page.getByRole("button", { name: "Start", exact: true }).click();

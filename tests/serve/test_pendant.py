@@ -26,7 +26,7 @@ MODULE = """MODULE MainModule
     note := ValToStr(value);
     TPWrite note;
   ENDPROC
-  VAR listitem parts{2} := [["", "Cover"], ["", "Shaft"]];
+  VAR listitem parts{3} := [["", "Cover"], ["", "Shaft"], ["", ""]];
   PROC enter()
     count := UINumEntry(\\Header:="Parts" \\InitValue:=12 \\MinValue:=1 \\MaxValue:=40 \\AsInteger);
     TPWrite UIAlphaEntry(\\Header:="Batch" \\InitString:="B-1");
@@ -605,7 +605,9 @@ class Operator(PendantCase):
         self.addCleanup(self.page.call, "panel.cycle", cycle="forever")
         self.page.call("dialogs.answer", id=text["id"], text="B-2")
         items = self.page.wait("dialog", lambda data: data.get("opened", {}).get("kind") == "list")["opened"]
-        self.assertEqual((items["items"], items["initial"]), (["Cover", "Shaft"], "2"))  # the argument DefaultIndex
+        self.assertEqual((items["items"], items["initial"]), (["Cover", "Shaft", ""], "2"))  # the argument DefaultIndex
+        for wrong in ({"item": 0}, {"item": 3}, {"item": 4}, {"item": 3, "choice": 1}, {"choice": 2}, {}):  # 3: an empty item is not shown
+            self.refused("bad_request", "dialogs.answer", id=items["id"], **wrong)
         self.page.call("dialogs.answer", id=items["id"], choice=1)  # OK alone takes it
         self.eventually(lambda: not self.panel()["running"])
 

@@ -124,6 +124,7 @@ Json onTypeFormatting(State& state, const Json& params) {
     const std::string typed = textField(params, "ch");
     if (!target.tree) return Json::array();
     const rapid::SourceFile& file = target.positions->file();
+    if (position.line >= file.lineCount()) return Json::array();
     if (typed == "\n" && position.line > 0) {
         const Json& options = objectField(params, "options");
         const auto columns = std::clamp<int64_t>(integerField(options, "tabSize"), 1, 16);
@@ -133,7 +134,7 @@ Json onTypeFormatting(State& state, const Json& params) {
             return state.edits(*target.positions, *edits);
         return state.edits(*target.positions, editsOfTypedLine(state, target, position.line));
     }
-    if (typed == ";" && position.line < file.lineCount())
+    if (typed == ";")
         return state.edits(*target.positions, editsOfTypedLine(state, target, position.line + 1));
     return Json::array();
 }

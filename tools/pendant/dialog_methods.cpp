@@ -46,16 +46,30 @@ Json describe(const Open& open) {
     return described;
 }
 
+/// The place from 1 of one of the texts.
+std::size_t placeOf(const Json& params, const char* name, const std::vector<std::string>& among) {
+    const std::size_t last = std::max<std::size_t>(among.size(), 1);
+    return static_cast<std::size_t>(wholeOf(params, name, 1, static_cast<int64_t>(last)));
+}
+
+/// A dialog without buttons of its own is answered with 1.
+std::size_t buttonOf(const rt::Dialog& dialog, const Json& params) {
+    const std::size_t button = placeOf(params, "choice", dialog.choices);
+    if (!dialog.choices.empty() && !service::showsButton(dialog, button))
+        badRequest("This button is not shown");
+    return button;
+}
+
 /// An item, a button, or both; a button alone takes the default item.
 std::string answerToList(const rt::Dialog& dialog, const Json& params) {
-    const auto numberIn = [&params](const char* name, const std::vector<std::string>& among) {
-        return static_cast<std::size_t>(
-            wholeOf(params, name, 1, static_cast<int64_t>(std::max<std::size_t>(among.size(), 1))));
-    };
     std::string answer, button;
     if (has(params, "choice") && !dialog.choices.empty())
-        button = dialog.choices[numberIn("choice", dialog.choices) - 1];
-    if (button.empty() || has(params, "item")) answer = std::to_string(numberIn("item", dialog.items));
+        button = dialog.choices[buttonOf(dialog, params) - 1];
+    if (button.empty() || has(params, "item")) {
+        const std::size_t item = placeOf(params, "item", dialog.items);
+        if (!service::showsItem(dialog, item)) badRequest("This item is not shown");
+        answer = std::to_string(item);
+    }
     return answer.empty() || button.empty() ? answer + button : answer + " " + button;
 }
 
@@ -174,14 +188,7 @@ Json DialogArea::answer(const Json& params) {
     const rt::Dialog& dialog = *open->dialog;
     std::string answer;
     switch (dialog.kind) {
-    case rt::DialogKind::Choice: {
-        const auto choice = wholeOf(params, "choice", 1,
-                                    static_cast<int64_t>(std::max<std::size_t>(dialog.choices.size(), 1)));
-        if (!dialog.choices.empty() && dialog.choices[static_cast<std::size_t>(choice - 1)].empty())
-            badRequest("This button is not shown");
-        answer = std::to_string(choice);
-        break;
-    }
+    case rt::DialogKind::Choice: answer = std::to_string(buttonOf(dialog, params)); break;
     case rt::DialogKind::List: answer = answerToList(dialog, params); break;
     case rt::DialogKind::Number: {
         const double number = numberOf(params, "number");

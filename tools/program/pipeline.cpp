@@ -10,6 +10,7 @@
 #include "tools/program/controller_environment.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,6 +18,17 @@ namespace rapidc {
 
 namespace sema = rapid::sema;
 namespace diag = rapid::diag;
+
+void addInputArgument(const rt::Command& command, Inputs& inputs) {
+    command.add("input", inputs.paths, "Modules, folders, .pgf programs, backups");
+    command.requireOneOf("input", "--task");
+}
+
+std::string nameOfProgram(const Inputs& inputs) {
+    if (!inputs.paths.empty()) return std::filesystem::path(inputs.paths.front()).stem().string();
+    return inputs.tasks.empty() ? ""
+                                : inputs.tasks.front().substr(0, inputs.tasks.front().find_first_of(":="));
+}
 
 void addAssumeSignalsOption(const rt::Command& command, Inputs& inputs) {
     command.addFlag("--assume-signals", inputs.assumeSignals,

@@ -23,6 +23,12 @@ namespace rapidc {
 using rapid::workspace::Compilation;
 using rapid::workspace::Inputs;
 
+/// Adds the argument that names modules, folders, programs and backups. It may be left out when --task names some.
+void addInputArgument(const rt::Command& command, Inputs& inputs);
+
+/// The name of the first input without folders and ending; without one the name of the first task.
+std::string nameOfProgram(const Inputs& inputs);
+
 /// Adds the option --assume-signals to a command.
 void addAssumeSignalsOption(const rt::Command& command, Inputs& inputs);
 

@@ -126,7 +126,7 @@ int build(BuildSettings& settings) {
     settings.inputs.requireMain = true;
     const auto compilation = checkInputs(settings.inputs);
     if (!compilation->usageErrors.empty()) return usageErrors("build", compilation->usageErrors);
-    if (settings.output.empty()) settings.output = fs::path(settings.inputs.paths[0]).stem().string();
+    if (settings.output.empty()) settings.output = nameOfProgram(settings.inputs);
     if (settings.output.empty()) settings.output = "a.out";
     if (const std::string problem = outputProblem(settings.output); !problem.empty())
         return usageError("build", problem + "; name the executable with -o FILE");
@@ -167,7 +167,7 @@ void addBuildCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<BuildSettings>();
     const rt::Command command =
         line.addCommand("build", "Compile to a native executable", [settings] { return build(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     command.add("-o,--output", settings->output, "The executable to write");
     addAssumeSignalsOption(command, settings->inputs);
     addWarningOption(command, settings->inputs);

@@ -92,7 +92,7 @@ void addCheckCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<CheckSettings>();
     const rt::Command command = line.addCommand("check", "Check RAPID modules and report every mistake",
                                                 [settings] { return check(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     addTaskOption(command, settings->inputs);
     addConfigOption(command, settings->inputs);
     addRobotOption(command, settings->inputs);

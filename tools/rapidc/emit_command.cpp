@@ -130,7 +130,7 @@ void addEmitCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<EmitSettings>();
     const rt::Command command =
         line.addCommand("emit", "Show a stage of the compiler", [settings] { return emit(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     command.add("--as", settings->as, "tokens, tree, symbols, ir, llvm, asm or obj")
         .oneOf({"tokens", "tree", "symbols", "ir", "llvm", "asm", "obj"});
     addWarningOption(command, settings->inputs);

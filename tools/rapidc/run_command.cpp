@@ -97,7 +97,7 @@ int run(RunSettings& settings) {
     compilation->callsByName = settings.interactive;
     const std::string home = compilation->homeFolder;
     LoadedProgram program(std::move(compilation));
-    const bool compiled = program.compile({.name = fs::path(settings.inputs.paths[0]).stem().string(),
+    const bool compiled = program.compile({.name = nameOfProgram(settings.inputs),
                                            .stepping = settings.stepping,
                                            .optimise = !settings.noOptimise,
                                            .inParts = settings.inParts,
@@ -128,7 +128,7 @@ void addRunCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<RunSettings>();
     const rt::Command command = line.addCommand("run", "Compile in memory and run on the virtual controller",
                                                 [settings] { return run(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     rt::addRunOptions(command, settings->options, true);
     addAssumeSignalsOption(command, settings->inputs);
     addWarningOption(command, settings->inputs);

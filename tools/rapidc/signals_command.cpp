@@ -54,7 +54,7 @@ void addSignalsCommand(rt::CommandLine& line) {
     const rt::Command command = line.addCommand(
         "signals", "Write an EIO.cfg with the signals that a program uses and no configuration defines",
         [settings] { return writeSignalFile(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     command.add("-o,--output", settings->output, "The file to write; without it standard output");
     addTaskOption(command, settings->inputs);
     addConfigOption(command, settings->inputs);

@@ -186,7 +186,7 @@ class Session {
 
     int run() {
         std::string error;
-        const std::string name = fs::path(settings_.inputs.paths[0]).stem().string();
+        const std::string name = nameOfProgram(settings_.inputs);
         const bool lowered = !compilation_.sink.hasErrors() && compiled_.lower(compilation_, name);
         printDiagnostics(compilation_);
         if (!lowered || !compiled_.compile(compilation_, error)) {
@@ -210,8 +210,8 @@ class Session {
     }
 
   private:
-    void take(const TestCase& test, const TestResult& result) {
-        results_.push_back({test, result});
+    void take(const TestCase& test, const TestResult& bytes) {
+        const TestResult& result = results_.emplace_back(testing::Finished{test, inUtf8(bytes)}).result;
         if (settings_.format == "human")
             fmt::print("{}", testing::humanText(test, result, settings_.verbose, isatty(STDOUT_FILENO) != 0));
         if (settings_.format == "tap") fmt::print("{}", testing::tapText(results_.size(), test, result));
@@ -376,7 +376,7 @@ void addTestCommand(rt::CommandLine& line) {
     auto settings = std::make_shared<TestSettings>();
     const rt::Command command =
         line.addCommand("test", "Run unit tests written in RAPID", [settings] { return test(*settings); });
-    command.add("input", settings->inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, settings->inputs);
     command
         .add("--filter", settings->filters,
              "Only tests whose id MODULE.TEST contains this, or matches it with * and ?; "

@@ -129,14 +129,12 @@ bool takesAnswer(std::string_view name) {
 
 /// The number of a button: the value that the program gets for it, or its place from 1. 0: there is none.
 std::size_t buttonOf(const rt::Dialog& dialog, double value) {
-    const auto isShown = [&](std::size_t i) {
-        return i < dialog.choices.size() && !dialog.choices[i].empty();
-    };
     for (std::size_t i = 0; i < dialog.results.size(); ++i)
-        if (static_cast<double>(dialog.results[i]) == value && isShown(i)) return i + 1;
+        if (static_cast<double>(dialog.results[i]) == value && service::showsButton(dialog, i + 1))
+            return i + 1;
     const bool isPlace = value >= 1 && value <= static_cast<double>(dialog.choices.size());
     const auto place = isPlace ? static_cast<std::size_t>(value) : 0;
-    return isPlace && static_cast<double>(place) == value && isShown(place - 1) ? place : 0;
+    return static_cast<double>(place) == value && service::showsButton(dialog, place) ? place : 0;
 }
 
 /// "3", "3 Cancel" or "Cancel": an item, a button, or both. None: the list shows no such item or button.
@@ -144,10 +142,10 @@ std::optional<std::string> itemOf(const rt::Dialog& dialog, const std::string& t
     const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
     const std::string button(rt::trimmed(std::string_view(text).substr(digits)));
     if (digits == 0 && button.empty()) return std::nullopt;
-    const auto isItem = [&dialog](std::size_t item) {
-        return item >= 1 && item <= dialog.items.size() && !dialog.items[item - 1].empty();
+    const auto isItem = [&dialog](const std::string& number) {
+        return number.size() <= 9 && service::showsItem(dialog, std::stoul(number));
     };
-    if (digits > 0 && (digits > 9 || !isItem(std::stoul(text.substr(0, digits))))) return std::nullopt;
+    if (digits > 0 && !isItem(text.substr(0, digits))) return std::nullopt;
     if (button.empty()) return text;
     const bool isShown = std::any_of(dialog.choices.begin(), dialog.choices.end(),
                                      [&button](const auto& choice) { return sameName(choice, button); });

@@ -1,9 +1,11 @@
 #pragma once
-// How clients name the kinds of the operator's dialogs, and which numbers they may answer.
+// How clients name the kinds of the operator's dialogs, and which numbers, items and buttons they may answer.
 
 #include "runtime/sim/operator_panel.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace rapidc::service {
 
@@ -26,6 +28,21 @@ inline bool takesNumber(const rt::Dialog& dialog, double value) {
     if (!std::isfinite(entered) || (dialog.isWhole && std::trunc(entered) != entered)) return false;
     return !(dialog.least && entered < stored(*dialog.least)) &&
            !(dialog.most && entered > stored(*dialog.most));
+}
+
+/// Whether the place from 1 is one of those shown: an empty text is not.
+inline bool isShown(const std::vector<std::string>& texts, std::size_t place) {
+    return place >= 1 && place <= texts.size() && !texts[place - 1].empty();
+}
+
+/// Whether the list shows that item, from 1.
+inline bool showsItem(const rt::Dialog& dialog, std::size_t item) {
+    return isShown(dialog.items, item);
+}
+
+/// Whether the dialog shows that button, from 1.
+inline bool showsButton(const rt::Dialog& dialog, std::size_t button) {
+    return isShown(dialog.choices, button);
 }
 
 } // namespace rapidc::service

@@ -46,7 +46,7 @@ std::unique_ptr<LoadedProgram> VirtualController::compile(const ModuleEdits& edi
     compilation->keepsPredefined = true;
     auto program = std::make_unique<LoadedProgram>(std::move(compilation));
     std::string error;
-    const std::string name = std::filesystem::path(inputs.paths.front()).stem().string();
+    const std::string name = nameOfProgram(inputs);
     const bool compiled = program->compile({.name = name, .stepping = true}, error);
     for (const rapid::diag::Diagnostic& diagnostic : program->compilation().sink.sorted())
         if (diagnostic.severity == rapid::diag::Severity::Error)

@@ -44,15 +44,26 @@ bool isBad(Outcome outcome) {
     return outcome != Outcome::Passed && outcome != Outcome::Skipped;
 }
 
-/// A text in double quotes as YAML and JSON have it.
+bool isControl(char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+}
+
+/// UTF-8 of U+0080 to U+009F, which YAML does not print either.
+bool isLaterControl(const std::string& text, std::size_t i) {
+    return text[i] == '\xC2' && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+}
+
+/// A text in double quotes as YAML has it.
 std::string quoted(const std::string& text) {
     std::string result = "\"";
-    for (const char c : text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool isLater = isLaterControl(text, i);
+        const char c = isLater ? text[++i] : text[i];
         if (c == '"' || c == '\\')
             result += std::string("\\") + c;
         else if (c == '\n')
             result += "\\n";
-        else if (static_cast<unsigned char>(c) < 0x20)
+        else if (isLater || isControl(c))
             result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
         else
             result += c;
@@ -60,12 +71,12 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-/// '#' begins a directive in TAP.
+/// '#' begins a directive in TAP, and a line has no control characters.
 std::string tapEscaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         if (c == '#' || c == '\\') result += '\\';
-        result += c == '\n' ? ' ' : c;
+        result += isControl(c) ? ' ' : c;
     }
     return result;
 }

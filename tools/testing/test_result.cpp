@@ -1,7 +1,10 @@
 #include "tools/testing/test_result.h"
 
+#include "config/text_util.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace testing {
@@ -71,6 +74,16 @@ class Reader {
     bool isWhole_ = true;
 };
 
+void decodeLines(std::string& text) {
+    std::string decoded;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+        decoded += rapid::config::toUtf8(std::string_view(text).substr(begin, end - begin));
+        begin = end;
+    }
+    text = std::move(decoded);
+}
+
 } // namespace
 
 const char* nameOf(Outcome outcome) {
@@ -88,6 +101,13 @@ std::string Spot::text() const {
     const std::string& where = file.empty() ? module : file;
     if (where.empty() || line == 0) return where;
     return fmt::format("{}:{}", where, line);
+}
+
+TestResult inUtf8(TestResult result) {
+    for (std::string* text :
+         {&result.message, &result.expected, &result.actual, &result.output, &result.events})
+        decodeLines(*text);
+    return result;
 }
 
 std::string pack(const TestResult& result) {

@@ -43,6 +43,9 @@ struct TestResult {
     std::map<std::pair<uint32_t, uint32_t>, uint64_t> executed;
 };
 
+/// With texts in UTF-8, as reports have them: a line that is not UTF-8 is read as ISO 8859-1, in which controllers write.
+TestResult inUtf8(TestResult result);
+
 /// From process to process; output and events are not part of it.
 std::string pack(const TestResult& result);
 /// False when the bytes are not those of pack().

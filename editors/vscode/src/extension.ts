@@ -4,6 +4,7 @@ import * as vscode from "vscode";
 import { LanguageClient, LanguageClientOptions, ServerOptions, State } from "vscode-languageclient/node";
 import { registerCommands } from "./commands";
 import { registerDebugger } from "./debugger";
+import { lensMiddleware, registerLenses } from "./lenses";
 import { rapidcPath, showProblem } from "./rapidc";
 import { registerTasks } from "./tasks";
 import { registerTests } from "./testing";
@@ -23,7 +24,7 @@ function makeClient(context: vscode.ExtensionContext): LanguageClient {
         initializationOptions: settings(),
         synchronize: { configurationSection: "rapidc", fileEvents: watcher },
         // The server publishes diagnostics as well as answering requests for them: the client would show both.
-        middleware: { provideDiagnostics: () => undefined, provideWorkspaceDiagnostics: () => undefined },
+        middleware: { ...lensMiddleware, provideDiagnostics: () => undefined, provideWorkspaceDiagnostics: () => undefined },
     };
     return new LanguageClient("rapidc", "RAPID", server, options);
 }
@@ -49,6 +50,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     registerDebugger(context);
     registerTests(context);
     registerCommands(context);
+    registerLenses(context);
     context.subscriptions.push(
         vscode.commands.registerCommand("rapidc.restartServer", async () => {
             await stopServer();

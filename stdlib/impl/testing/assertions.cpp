@@ -253,7 +253,7 @@ Status rt_AssertDisplay(TaskCore* task, const String* Text, const String* Messag
 
 Status rt_Fail(TaskCore* task, const String* Message) {
     ++recordOf(task).assertions;
-    return failWithText(task, std::string(Message->view()), nullptr);
+    return failWithText(task, Message->length > 0 ? std::string(Message->view()) : "Fail", nullptr);
 }
 
 Status rt_SkipTest(TaskCore* task, const String* Reason) {

@@ -172,6 +172,13 @@ TEST_CASE("what cannot be used is named with its remedy", "[project]") {
     CHECK_FALSE(load({folder / "none.modx"})->ok);
     const std::string config = folder.write("EIO.cfg", "EIO:CFG_1.0:6:0::\n");
     CHECK(load({config})->codes() == Names{"RAP6026"});
+    folder.write("bare/SYS.cfg",
+                 "SYS:CFG_1.0:6:0::\n#\nCAB_TASK_MODULES:\n\n      -File \"HOME:/a.mod\" -AllTask\n");
+    const auto bare =
+        load({folder / "bare"}); // the modules are not given: the message says where they belong
+    REQUIRE(bare->codes() == Names{"RAP6054", "RAP6026"});
+    CHECK(bare->sink.all().back().message.find("bare/HOME") != std::string::npos);
+    CHECK(load({}, {{"T_A", "NORMAL", {folder.write("one.modx", kEmptyModule)}}})->ok);
     if (::geteuid() != 0) { // root reads everything
         const std::string secret = folder.write("secret.modx", kEmptyModule);
         fs::permissions(secret, fs::perms::none);

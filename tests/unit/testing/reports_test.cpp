@@ -77,6 +77,23 @@ TEST_CASE("TAP 14: plan, directives, blocks", "[testing]") {
           "  expected: \"\\\"a\\\"\"\n  actual: \"\\\"b\\\"\"\n  ...\n");
 }
 
+TEST_CASE("TAP 14: every byte that RAPID's strings hold makes readable YAML in UTF-8", "[testing]") {
+    std::string bytes;
+    for (int byte = 0; byte < 256; ++byte)
+        bytes += static_cast<char>(byte);
+    for (const Outcome outcome : {Outcome::Error, Outcome::Skipped}) {
+        Finished one = finished("A.TestOne", outcome, bytes + "\n\xC3\xA9 whole");
+        one.result = inUtf8(one.result);
+        const std::string text = tapText(1, one.test, one.result);
+        for (const char c : text) // YAML 1.2, c-printable; TAP: lines without control characters
+            CHECK(((static_cast<unsigned char>(c) >= 0x20 && c != 0x7F) || c == '\n'));
+        CHECK(has(text, "\xC3\xBF"));       // byte FF: ISO 8859-1
+        CHECK(has(text, "\xC3\xA9 whole")); // UTF-8 stays
+        CHECK_FALSE(has(text, "\xFF"));
+        if (outcome == Outcome::Error) CHECK(has(text, "\\x7f\\x80\\x81"));
+    }
+}
+
 TEST_CASE("totals for people", "[testing]") {
     CHECK(humanTotals(totalsOf({finished("A.T", Outcome::Passed)})) == "1 test: 1 passed\n");
     CHECK(humanTotals(totalsOf({finished("A.T", Outcome::Failed), finished("A.U", Outcome::Error),

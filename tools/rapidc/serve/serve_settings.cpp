@@ -62,7 +62,7 @@ constexpr std::size_t kMostFolders = 20'000;
 
 void addServeOptions(const rt::Command& command, ServeSettings& settings) {
     service::Settings& controller = settings.controller;
-    command.add("input", controller.inputs.paths, "Modules, folders, .pgf programs, backups").required();
+    addInputArgument(command, controller.inputs);
     addPort(command, "--http-port", settings.httpPort, "Robot Web Services 1.0 (HTTP)");
     addPort(command, "--https-port", settings.httpsPort, "Robot Web Services 2.0 (HTTPS)");
     addPort(command, "--web-port", settings.webPort, "the web page");

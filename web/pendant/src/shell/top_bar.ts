@@ -9,8 +9,8 @@ const motorTexts: Record<string, string> = {
     on: "Motors on",
     off: "Motors off",
     guardStop: "Guard stop",
-    emergencyStop: "Emergency stop",
-    emergencyStopReset: "Emergency stop released",
+    emergencyStop: "E-stop", // the name of the button that presses and releases it is another
+    emergencyStopReset: "E-stop released",
     init: "Starting",
     failure: "System failure",
 };
@@ -123,6 +123,7 @@ export class TopBar {
         this.cycle.set(panel.cycle);
         this.emergency.setAttribute("aria-pressed", String(panel.emergencyStop));
         setText(this.emergency.lastElementChild as Element, panel.emergencyStop ? "RESET" : "STOP");
+        this.emergency.setAttribute("aria-label", panel.emergencyStop ? "Emergency stop, reset" : "Emergency stop");
         if (document.activeElement !== this.speed) this.speed.value = String(panel.speed);
         setText(this.speedText, `${Math.round(panel.speed)} %`);
     }
