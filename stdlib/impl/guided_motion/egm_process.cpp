@@ -34,8 +34,13 @@ void EgmProcess::disconnect() {
     partner_.reset();
     settings_.reset();
     exchanged_ = {};
-    data_ = {};
+    forgetData();
     isConnected_ = timedOut_ = false;
+}
+
+void EgmProcess::forgetData() {
+    data_ = {};
+    hasData_ = false;
 }
 
 void EgmProcess::lose() {
@@ -48,8 +53,8 @@ void EgmProcess::activate(const GuidanceSettings& settings, const RapidExchange&
     settings_ = settings;
     exchanged_ = exchanged;
     noteTool();
-    data_ = {};
-    hasData_ = false;
+    // What came while the program streamed is the target until more comes; a client may send it once.
+    if (!session_.streams || mode_ == GuidanceMode::PathCorrection) forgetData();
     correction_ = {};
     hasNewData_ = true; // signals have a value already
     if (mode_ == GuidanceMode::PathCorrection) corrections().setOffset({});
@@ -382,6 +387,7 @@ void EgmProcess::followOn(Time now) {
 void EgmProcess::finish() {
     if (std::exchange(phase_, Phase::None) == Phase::None) return;
     arm_.reset();
+    if (session_.streams) forgetData();
     if (session_.streams)
         (void)sendState();
     else

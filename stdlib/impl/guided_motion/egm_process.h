@@ -90,6 +90,7 @@ class EgmProcess {
     void tick();
     void schedule();
     void takeData(Time now);
+    void forgetData();
     void exchange();
     std::string sendState();
     RobotData robotData();
@@ -114,7 +115,7 @@ class EgmProcess {
     std::optional<GuidanceOrder> order_;
     std::unique_ptr<GuidedArm> arm_;
     SensorData data_;
-    bool hasData_ = false; ///< since EGMAct...: before that nothing has been reached
+    bool hasData_ = false; ///< since EGMAct... or, when messages were streamed before, since EGMStreamStart
     struct Session {
         bool isOpen = false;
         bool streams = false; ///< lasts beyond the guidance (EGMStreamStart)

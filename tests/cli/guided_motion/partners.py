@@ -97,6 +97,13 @@ def sessions(peer):
     print("sessions", len(counts), "in order", in_order, "none empty", min(counts) > 0, "one port", len(ports) == 1)
 
 
+def streamed(peer):
+    """Answers the first messages of the stream only."""
+    for count, _ in enumerate(peer.messages()):
+        if 10 <= count < 13:
+            peer.send(axis_1(5))
+
+
 BAD = {
     "no message": b"no message",
     "another type": sensor(REST, mtype=egm.DATA),
