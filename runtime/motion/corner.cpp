@@ -80,22 +80,14 @@ double brakingWay(const Leg& leg) {
     return leg.isTurning ? kMmPerDegree * turning * turning / kTurningBraking : tcp * tcp / kBraking;
 }
 
-constexpr double kReversalCosine = -0.866; // of a turn by 150 degrees
-
-/// Corner::sharpness of a curve.
-double sharpnessOf(const Bezier<Vec3>& curve) {
-    const Vec3 in = curve.slopeAt(0), out = curve.slopeAt(1);
-    const double sizes = norm(in) * norm(out);
-    return sizes > 0 ? std::clamp(dot(in, out) / (kReversalCosine * sizes), 0.0, 1.0) : 0;
-}
-
 /// Corner::reversalRate of a curve, with `first` and `last` mm of route per unit of the parameter at its ends. The TCP then brakes evenly
 /// up to the place of the reversal and accelerates evenly after it, on about the way that this takes from the programmed speed.
 template <class Point>
 double reversalRateOf(const Bezier<Point>& curve, double first, double last, const Leg& a, const Leg& b) {
+    constexpr double kNearly = -0.866; // cosine, of a turn by 150 degrees
     const Point in = curve.slopeAt(0), out = curve.slopeAt(1);
     const double sizes = std::sqrt(dot(in, in) * dot(out, out));
-    if (!(dot(in, out) < kReversalCosine * sizes)) return 0;
+    if (!(dot(in, out) < kNearly * sizes)) return 0;
     const double ends = 0.5 * (first + last); // falls to 0 on half of the curve
     return std::min(std::sqrt(2 * ends * std::min(brakingWay(a), brakingWay(b))), ends);
 }
@@ -152,7 +144,6 @@ void Route::curveInSpace(Corner& corner, const Leg& a, const Leg& b) {
         return corner.routeRate(x, perMm * norm(corner.space.slopeAt(x)));
     };
     if (!corner.isSmooth) corner.reversalRate = reversalRateOf(corner.space, rate(0), rate(1), a, b);
-    corner.sharpness = sharpnessOf(corner.space);
     corner.lengths = LengthMap::measured(rate, kCornerPieces, corner.isSmooth);
     corner.halfLength = corner.lengths.distanceAt(0.5);
 }

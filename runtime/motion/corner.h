@@ -136,8 +136,6 @@ struct Corner {
     /// Least mm of route per unit of the parameter half way along the curve; 0 unless the path turns back on itself. The TCP comes to rest
     /// there: with mm of TCP path alone its velocity would change from one moment to the next.
     double reversalRate = 0;
-    /// Of a curve in space: 0 for a turn by at most 90 degrees, 1 from 150 degrees on, in between in proportion to the cosine.
-    double sharpness = 0;
     Bezier<Vec3> space;
     Bezier<AxisVector> axes;
     Quat centre;         ///< orientation at the programmed point

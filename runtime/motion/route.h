@@ -53,7 +53,6 @@ struct RouteStretch {
     double curvature = 0;      ///< of the TCP path, 1/mm
     double zoneLength = 0;     ///< mm, of the corner it lies in; 0 = outside
     bool isAxesCorner = false; ///< that corner is a curve of the axes
-    double sharpness = 0;      ///< of that corner
     bool isReversal = false;   ///< the path turns back on itself in that corner
 };
 

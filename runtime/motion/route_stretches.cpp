@@ -216,7 +216,6 @@ bool Route::measure(RouteStretch& stretch, std::size_t own, const Joints& seed) 
     stretch.leg = legBy(own, middle);
     stretch.zoneLength = inCorner ? corner(own).length() : 0;
     stretch.isAxesCorner = inCorner && corner(own).kind == CornerKind::Joint;
-    stretch.sharpness = inCorner ? corner(own).sharpness : 0;
     stretch.isReversal = inCorner && corner(own).reversalRate > 0;
     std::array<Sought, 3> sought;
     std::array<robot::InverseTask, 3> tasks;

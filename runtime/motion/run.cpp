@@ -148,14 +148,13 @@ std::size_t Run::limitStretches(std::size_t from) {
         if (settings_.companions != nullptr) settings_.companions->tighten(route_, s, added);
         added.ownSpeed = added.speed;
         if (!s.isAxesCorner) added.axisSpeed = kUnlimited; // no dip that is widened
-        if (s.isReversal || s.sharpness > 0)
-            added.axisSpeed = std::min(added.axisSpeed, std::sqrt(added.bendSquare));
+        if (s.isReversal) added.axisSpeed = std::min(added.axisSpeed, std::sqrt(added.bendSquare));
     }
     return widenDips(from);
 }
 
-/// Averaging in time would pass over a short place in a corner between joint moves where an axis turns fast, or where the path turns sharply
-/// or back on itself: around it, as far as the windows reach, the speed exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
+/// Averaging in time would pass over a short place in a corner between joint moves where an axis turns fast, or where the path turns back on
+/// itself: around it, as far as the windows reach, the speed exceeds what the axis allows there by a limited share only. Limits from `from` on are new: stretches before it that a dip in
 /// their place had lowered have their own speeds again. The first stretch whose speed has changed, at most `from`.
 std::size_t Run::widenDips(std::size_t from) {
     constexpr double kExcess = 1.25;
@@ -178,14 +177,9 @@ std::size_t Run::widenDips(std::size_t from) {
         limits_[i].speed = speed;
         if (i < restored) first = std::min(first, i);
     };
-    const auto mostNear = [&](std::size_t dip) { // up to 90 degrees the averaging is what recordings show
-        const double sharpness = stretches[dip].sharpness;
-        return limits_[dip].axisSpeed * (sharpness > 0 ? kExcess / sharpness : kExcess);
-    };
     const auto widen = [&](std::size_t dip) {
-        const bool isSharp = stretches[dip].isReversal || stretches[dip].sharpness > 0;
-        const double speed = mostNear(dip);
-        const double reach = speed * halfWindow * (isSharp ? kReversalShare : 1);
+        const double speed = kExcess * limits_[dip].axisSpeed;
+        const double reach = speed * halfWindow * (stretches[dip].isReversal ? kReversalShare : 1);
         for (std::size_t i = dip; i > 0 && stretches[i - 1].end > stretches[dip].begin - reach; --i)
             lower(i - 1, speed);
         for (std::size_t i = dip + 1; i < limits_.size() && stretches[i].begin < stretches[dip].end + reach;
@@ -197,7 +191,7 @@ std::size_t Run::widenDips(std::size_t from) {
     while (dip > 0 && stretches[dip - 1].end > stretches[restored].begin - fastest * halfWindow)
         fastestNear = std::max(fastestNear, limits_[--dip].speed);
     for (; dip < limits_.size(); ++dip)
-        if (mostNear(dip) < fastestNear) widen(dip);
+        if (kExcess * limits_[dip].axisSpeed < fastestNear) widen(dip);
     for (std::size_t i = restored; i < from; ++i)
         if (limits_[i].speed != before[i - restored]) return std::min(first, i);
     return first;
