@@ -156,7 +156,8 @@ class Route {
     void restoreStretches();
     bool layStretches(double from);
     void addBends(const Corner& corner, double from, double to, std::vector<double>& places) const;
-    void addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const;
+    void addTurns(const Corner& corner, double from, double distance, double to,
+                  std::vector<double>& places) const;
     std::vector<double> bordersFrom(double from) const;
     bool measure(RouteStretch& stretch, std::size_t own, const Joints& seed) const;
     bool joins(const RouteStretch& before, const RouteStretch& after, std::optional<int>& branch) const;

@@ -62,13 +62,14 @@ void Route::addBends(const Corner& corner, double from, double to, std::vector<d
 }
 
 /// Places inside a part of a curve of the axes between which these turn at similar rates: where the TCP nearly stops to turn
-/// back they turn most for a mm, on a way that is shorter than usual stretches.
-void Route::addTurns(const Corner& corner, double from, double to, std::vector<double>& places) const {
+/// back they turn most for a mm, on a way that is shorter than usual stretches. `distance`: along the curve up to `from`, mm.
+void Route::addTurns(const Corner& corner, double from, double distance, double to,
+                     std::vector<double>& places) const {
     constexpr double kSimilar = 1.5;
     constexpr double kLeastPart = 2e-3;
     const double middle = 0.5 * (from + to);
     double shortest = corner.length(), longest = 0; // quarters, since halves may be each other's mirror image
-    double before = corner.lengths.distanceAt(from);
+    double before = distance;
     for (int k = 1; k <= 4; ++k) {
         const double end = corner.lengths.distanceAt(from + 0.25 * k * (to - from));
         shortest = std::min(shortest, end - before);
@@ -76,9 +77,10 @@ void Route::addTurns(const Corner& corner, double from, double to, std::vector<d
         before = end;
     }
     if (longest < kSimilar * shortest || to - from < kLeastPart) return;
-    addTurns(corner, from, middle, places);
-    places.push_back(corner.begin + corner.lengths.distanceAt(middle));
-    addTurns(corner, middle, to, places);
+    addTurns(corner, from, distance, middle, places);
+    const double there = corner.lengths.distanceAt(middle);
+    places.push_back(corner.begin + there);
+    addTurns(corner, middle, there, to, places);
 }
 
 /// Borders of pieces on which all quantities are smooth, and the nodes of the paths, from a place to the end.
@@ -115,7 +117,7 @@ std::vector<double> Route::bordersFrom(double from) const {
             if (isSmooth_)
                 addBends(c, begin, end, bends);
             else
-                addTurns(c, begin, end, bends);
+                addTurns(c, begin, c.lengths.distanceAt(begin), end, bends);
         }
         for (const double place : bends)
             add(place);

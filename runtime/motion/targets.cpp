@@ -122,8 +122,7 @@ std::string MotionError::message() const {
     case MotionErrorKind::CirclePointsTooClose:
         return fmt::format("points of the circle are only {:.3f} mm apart; 0.1 mm is the least", value);
     case MotionErrorKind::CirclePointsCollinear:
-        return fmt::format("the points of the circle lie on one line (angle {:.3f} degrees; 1 is the least)",
-                           value);
+        return "the circle point lies on the line through start and end, but not between them";
     case MotionErrorKind::CircleTooLarge:
         return fmt::format("circle of {:.1f} degrees in one move; 240 is the most, divide it", value);
     case MotionErrorKind::QueueFull:

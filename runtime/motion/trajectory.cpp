@@ -461,7 +461,11 @@ std::optional<double> Trajectory::inPositionTime(std::size_t run) const {
     const Course& course = e.run->course();
     const double length = course.endPlace();
     const double left = options_.inPosition * e.run->perMmLeft();
-    return std::max(courseTime(run, length - std::min(left, 0.5 * length)), course.plannedEnd());
+    const double near = std::max(courseTime(run, length - std::min(left, 0.5 * length)), course.plannedEnd());
+    // After the fly-by point before it, however short the last move is.
+    const Route& route = e.run->route();
+    const double last = route.legCount() > 1 ? route.legStart(route.legCount() - 1) : 0;
+    return length - last >= left ? near : std::max(near, timeAt({run, last}).value_or(near));
 }
 
 std::optional<double> Trajectory::stopTime(std::size_t run) const {

@@ -132,6 +132,17 @@ void addOffsets(motion::ExternalAxes& axes, const motion::ExternalAxes& offsets,
         if (motion::isConnected(axes[i]) && motion::isConnected(offsets[i])) axes[i] += sign * offsets[i];
 }
 
+namespace {
+
+/// The controller stops with an event that no error handler takes: MoveC has no error constant for it.
+bool makesNoCircle(motion::MotionErrorKind kind) {
+    using Kind = motion::MotionErrorKind;
+    return kind == Kind::CirclePointsTooClose || kind == Kind::CirclePointsCollinear ||
+           kind == Kind::CircleTooLarge;
+}
+
+} // namespace
+
 Status motionErrno(const motion::MotionError& error) {
     using Kind = motion::MotionErrorKind;
     switch (error.kind) {
@@ -154,6 +165,8 @@ Status failMotion(TaskCore* task, const motion::MotionError& error) {
     using Kind = motion::MotionErrorKind;
     constexpr Kind kOfTheModel[] = {Kind::Unreachable, Kind::JointOutOfRange, Kind::NoSuchConfiguration,
                                     Kind::ConfigurationMismatch, Kind::Singularity};
+    if (makesNoCircle(error.kind))
+        return taskOf(task).fatal(static_cast<int>(EventId::CircleUncertain), error.message());
     const Status number = motionErrno(error);
     const Controller& controller = taskOf(task).controller();
     const MotionGroup& group = controller.units().groups()[motionOf(task).group()];

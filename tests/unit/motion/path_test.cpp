@@ -198,6 +198,8 @@ TEST_CASE("points that make no circle are refused", "[motion][path]") {
     };
     CHECK(kind({0, 0, 0}, {0.05, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
     CHECK(kind({0, 0, 0}, {50, 50, 0}, {0, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
+    CHECK(kind({0, 0, 0}, {100, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
+    CHECK(kind({0, 0, 0}, {0, 0, 0}, {0, 0, 0}) == MotionErrorKind::CirclePointsTooClose);
     CHECK(kind({0, 0, 0}, {150, 0, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
     CHECK(kind({0, 0, 0}, {-50, 0.001, 0}, {100, 0, 0}) == MotionErrorKind::CirclePointsCollinear);
     // 270 degrees: from angle 0 over 135 to 270.

@@ -94,3 +94,21 @@ TEST_CASE("a turning movement is at its stop point when a quarter of a degree is
             system.advanceTo(*system.nextEventTime());
     }
 }
+
+TEST_CASE("after a stop point at the end of a short move its place is read", "[motion][stop]") {
+    // Reading a position after a stop point gives the point (decision 61), even if the arm is near it before the corner ahead
+    // of the last move, 0.3 mm long, is passed.
+    MotionSystem system(robot::loadRobotModel("IRB 6640-180/2.55").value());
+    system.placeAt({{0, 10, 10, 0, 60, 0}, kNoExternalAxes});
+    MoveCommand first = lineBy(system, 50);
+    first.zone = {false, 10, 15, 15, 1.5, 15, 1.5};
+    const MoveId passed = system.enqueue(first).value();
+    MoveCommand second = lineBy(system, 0);
+    second.target.pose = robot::offs(second.target.pose, 0.3, 0, 0);
+    const MoveId last = system.enqueue(second).value();
+    while (!system.isReleased(last))
+        system.advanceTo(*system.nextEventTime());
+    CHECK(system.status(passed) == MoveStatus::Done);
+    const Vec3 read = system.currentTarget(second.frames).pose.pos;
+    CHECK(norm(read - second.target.pose.pos) < 1e-6);
+}
