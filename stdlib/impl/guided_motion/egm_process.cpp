@@ -53,7 +53,7 @@ void EgmProcess::activate(const GuidanceSettings& settings, const RapidExchange&
     settings_ = settings;
     exchanged_ = exchanged;
     noteTool();
-    // What came while the program streamed is the target until more comes; a client may send it once.
+    // A target that came while the program streamed counts until another comes: a client may send it once.
     if (!session_.streams || mode_ == GuidanceMode::PathCorrection) forgetData();
     correction_ = {};
     hasNewData_ = true; // signals have a value already
