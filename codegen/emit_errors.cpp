@@ -2,6 +2,7 @@
 // statement. A check costs one compare and one branch.
 
 #include <algorithm>
+#include <utility>
 
 #include "codegen/routine_emitter.h"
 
@@ -135,7 +136,9 @@ void RoutineEmitter::tryNext(const ir::Inst&) {
 
 /// Jumps to `where` of the statement that failed.
 void RoutineEmitter::resumeSwitch(ir::BlockId ir::Statement::* where) {
-    if (m_.options().optimise && routine_.statements.size() > kManyWaysBack) keepInMemory();
+    if (m_.options().optimise && routine_.statements.size() > kManyWaysBack &&
+        !std::exchange(variablesKept_, true))
+        keepInMemory();
     BasicBlock* never = newBlock("never");
     auto* branch = b_.CreateSwitch(b_.CreateLoad(b_.getInt32Ty(), failed_), never);
     for (uint32_t s = 0; s < routine_.statements.size(); ++s) {

@@ -47,7 +47,7 @@ std::unique_ptr<llvm::Module> ModuleEmitter::run(const llvm::DataLayout& layout,
     if (options_.debugInfo) debug_ = std::make_unique<DebugInfo>(module_, *target_, options_.optimise);
     declareTypes();
     declareRuntime();
-    findExported();
+    exported_ = module_.calledFromOutside();
     emitSafepointSlow();
     if (hasTables() && !dataInMemory())
         for (uint32_t i = 0; i < module_.globals.size(); ++i)
@@ -240,22 +240,6 @@ llvm::FunctionCallee ModuleEmitter::callee(llvm::IRBuilderBase& b, uint32_t inde
 
 bool ModuleEmitter::countsCalls(uint32_t index) const {
     return part_ && part_->countsCalls && defined_[index];
-}
-
-void ModuleEmitter::findExported() {
-    exported_.assign(module_.routines.size(), false);
-    const auto add = [&](uint32_t index) {
-        if (index != ir::kNone) exported_[index] = true;
-    };
-    for (uint32_t i = 0; i < module_.routines.size(); ++i) {
-        if (module_.routines[i].exported) add(i);
-        add(module_.routines[i].detachedHandler);
-    }
-    for (const ir::TaskEntry& task : module_.tasks) {
-        add(task.entry);
-        add(task.reset);
-    }
-    add(module_.unitReset);
 }
 
 llvm::Function* ModuleEmitter::cEntry(uint32_t index) {

@@ -135,7 +135,6 @@ class ModuleEmitter {
     bool isShared(const ir::Global& global) const;
     bool hasTables() const { return part_ == nullptr || part_->tables; }
     bool dataInMemory() const { return part_ != nullptr && part_->dataInMemory; }
-    void findExported();
     void emitBodies();
     void emitSafepointSlow();
     void emitCEntry(uint32_t index);

@@ -199,6 +199,7 @@ class RoutineEmitter {
     std::vector<WideLoop> wideLoops_;
     std::vector<JoinedRounds> joinedRounds_;
     std::vector<Value*> locals_;
+    bool variablesKept_ = false; ///< in memory, by keepInMemory(): once for all ways back
     llvm::AllocaInst* resultSlots_[ir::kScalarTypes] = {}; ///< for scalar results of natives, by type
     Value *task_ = nullptr, *caller_ = nullptr, *result_ = nullptr;
     llvm::AllocaInst *frame_ = nullptr, *unwinding_ = nullptr;

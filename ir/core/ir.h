@@ -376,6 +376,8 @@ struct Module {
     Module();
     /// Of all routines: what compiling takes.
     size_t instructionCount() const;
+    /// By routine: whether the runtime or another unit calls it, so that not all its calls are in the module.
+    std::vector<bool> calledFromOutside() const;
     const Type& type(TypeId id) const { return types[id]; }
     TypeId arrayOf(TypeId element, std::vector<int32_t> dims); ///< interned
     TypeId stringOf(uint32_t capacity);                        ///< interned

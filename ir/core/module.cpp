@@ -34,6 +34,23 @@ size_t Module::instructionCount() const {
     return count;
 }
 
+std::vector<bool> Module::calledFromOutside() const {
+    std::vector<bool> result(routines.size(), false);
+    const auto add = [&](uint32_t index) {
+        if (index != kNone) result[index] = true;
+    };
+    for (uint32_t i = 0; i < routines.size(); ++i) {
+        if (routines[i].exported) add(i);
+        add(routines[i].detachedHandler);
+    }
+    for (const TaskEntry& task : tasks) {
+        add(task.entry);
+        add(task.reset);
+    }
+    add(unitReset);
+    return result;
+}
+
 TypeId Module::arrayOf(TypeId element, std::vector<int32_t> dims) {
     for (TypeId id = 0; id < types.size(); ++id) {
         const Type& t = types[id];

@@ -16,7 +16,9 @@ class ConstantParameters {
     }
 
     void run() {
-        freeOutside();
+        const std::vector<bool> hasUnknownCalls = module_.calledFromOutside();
+        for (uint32_t r = 0; r < params_.size(); ++r)
+            if (hasUnknownCalls[r]) letVary(r);
         for (uint32_t r = 0; r < params_.size(); ++r)
             for (const Block& block : module_.routines[r].blocks)
                 for (const ValueId id : block.insts)
@@ -38,29 +40,13 @@ class ConstantParameters {
 
     Parameter& at(Place place) { return params_[place.routine][place.param]; }
 
-    /// Other calls of routines that are reached from outside are not known.
-    void freeOutside() {
-        const auto add = [&](uint32_t routine) {
-            if (routine == kNone) return;
-            for (uint32_t p = 0; p < params_[routine].size(); ++p)
-                meet({routine, p}, nullptr);
-        };
-        for (uint32_t r = 0; r < params_.size(); ++r) {
-            const Routine& routine = module_.routines[r];
-            if (routine.exported || routine.isDetachedHandler) add(r);
-            add(routine.detachedHandler);
-        }
-        for (const TaskEntry& task : module_.tasks) {
-            add(task.entry);
-            add(task.reset);
-        }
-        add(module_.unitReset);
+    void letVary(uint32_t routine) {
+        for (uint32_t p = 0; p < params_[routine].size(); ++p)
+            meet({routine, p}, nullptr);
     }
 
     void look(uint32_t caller, const Inst& inst) {
-        if (inst.op == Op::RoutineAddr)
-            for (uint32_t p = 0; p < params_[inst.index].size(); ++p)
-                meet({inst.index, p}, nullptr);
+        if (inst.op == Op::RoutineAddr) letVary(inst.index);
         if (inst.op != Op::Call) return;
         const uint32_t result = module_.isScalar(module_.routines[inst.index].result) ? 0 : 1; // its address
         for (uint32_t p = 0; p < params_[inst.index].size(); ++p) {

@@ -24,9 +24,8 @@ struct CompileSettings {
     std::string name;      ///< of the program, for its symbols and messages
     bool stepping = false; ///< the stepping profile
     bool optimise = true;
-    bool inParts = false; ///< each routine when it is called first, even in a small program
-    bool startsAtOnce =
-        false; ///< the same unless the program is small; compiling delays it a little later, too
+    bool inParts = false;      ///< each routine when it is called first, even in a small program
+    bool startsAtOnce = false; ///< the same, unless the program is small
     bool interpreted = false;  ///< every routine is interpreted, not only huge ones
     bool executedOnce = false; ///< main runs once: its own loops need no better code than that
     bool keepsProgram = true;  ///< false: compilation().program is dropped and becomes null
