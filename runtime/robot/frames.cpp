@@ -2,6 +2,7 @@
 
 #include "runtime/robot/frames.h"
 #include "runtime/robot/angles.h"
+#include "runtime/robot/fast_trig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,19 @@ namespace robot {
 
 namespace {
 
-/// Without calling the library for the commonest angle, 0.
+/// Without a series for the commonest angle, 0.
 HalfAngle halfOf(double deg) {
-    const double half = deg * kDeg / 2;
-    if (half == 0) return {1, half};
-    HalfAngle both{};
-    ::sincos(half, &both.sine, &both.cosine);
-    return both;
+    if (deg == 0) return {};
+    const trig::SineCosine both = trig::sinCosDeg(deg / 2);
+    return {both.cosine, both.sine};
+}
+
+double sineOfY(const Quat& q) {
+    return std::clamp(2 * (q.w * q.y - q.x * q.z), -1.0, 1.0);
+}
+/// Near +-90 degrees about y only the sum (difference) of the other two is determined: x is then taken as 0.
+bool isUpright(double sineOfY) {
+    return std::abs(sineOfY) > 1 - 1e-13;
 }
 
 } // namespace
@@ -58,14 +65,24 @@ Quat fromEulerZyx(double zDeg, double yDeg, double xDeg) {
 }
 
 Vec3 eulerZyx(const Quat& q) {
-    const double sineY = std::clamp(2 * (q.w * q.y - q.x * q.z), -1.0, 1.0);
-    // Near +-90 degrees only the sum (difference) of the other two is determined: x is then taken as 0.
-    if (std::abs(sineY) > 1 - 1e-13) {
-        return {0, std::copysign(90.0, sineY), -2 * std::copysign(1.0, sineY) * std::atan2(q.x, q.w) / kDeg};
-    }
-    return {std::atan2(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y)) / kDeg,
-            std::asin(sineY) / kDeg,
-            std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z)) / kDeg};
+    return {eulerX(q), eulerY(q), eulerZ(q)};
+}
+
+double eulerX(const Quat& q) {
+    if (isUpright(sineOfY(q))) return 0;
+    return trig::atan2Deg(2 * (q.w * q.x + q.y * q.z), 1 - 2 * (q.x * q.x + q.y * q.y));
+}
+
+double eulerY(const Quat& q) {
+    const double sine = sineOfY(q);
+    return isUpright(sine) ? std::copysign(90.0, sine)
+                           : trig::atan2Deg(sine, std::sqrt((1 - sine) * (1 + sine)));
+}
+
+double eulerZ(const Quat& q) {
+    const double sine = sineOfY(q);
+    if (isUpright(sine)) return -2 * std::copysign(1.0, sine) * trig::atan2Deg(q.x, q.w);
+    return trig::atan2Deg(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
 }
 
 Pose offs(const Pose& target, double x, double y, double z) {

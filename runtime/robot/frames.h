@@ -132,6 +132,10 @@ Quat turnedBy(const Quat& base, const Vec3& rotation, double share = 1);
 Quat fromEulerZyx(double zDeg, double yDeg, double xDeg);
 /// RAPID's EulerZYX: the three angles in degrees, as x, y, z members; y within +-90.
 Vec3 eulerZyx(const Quat& q);
+/// One of the three alone.
+double eulerX(const Quat& q);
+double eulerY(const Quat& q);
+double eulerZ(const Quat& q);
 
 /// RAPID's Offs: displaced by x, y, z mm along the axes of the frame the pose is given in.
 Pose offs(const Pose& target, double x, double y, double z);

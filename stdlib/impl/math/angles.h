@@ -6,11 +6,6 @@ namespace rt::lib {
 
 double sinDeg(double degrees);
 double cosDeg(double degrees);
-/// Both for the price of one.
-struct SineCosine {
-    double sine, cosine;
-};
-SineCosine sinCosDeg(double degrees);
 /// At odd multiples of 90 degrees, where the tangent has no value: +-1.633123935319537e16.
 double tanDeg(double degrees);
 double asinDeg(double value);

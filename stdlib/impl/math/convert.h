@@ -22,20 +22,33 @@ inline data::Orient toOrient(const robot::Quat& q) {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
+/// By how much the square of the length differs from 1. It is never exactly 0 in binary32.
+inline double lengthExcess(const robot::Quat& q) {
+    return dot(q, q) - 1;
+}
+/// Of unit length but for rounding: the reciprocals below are short series, whose next terms are beyond the precision of binary64.
+inline bool isNearUnit(double lengthExcess) {
+    constexpr double kClose = 1e-6;
+    return std::abs(lengthExcess) < kClose;
+}
+/// 1 / length and 1 / length^2 near the unit.
+inline double inverseLength(double lengthExcess) {
+    return 1 + lengthExcess * (lengthExcess * 0.375 - 0.5);
+}
+inline double inverseSquare(double lengthExcess) {
+    return 1 - lengthExcess * (1 - lengthExcess);
+}
 /// A call, because the root and what follows from it would be computed before it is known whether they are needed.
 [[gnu::cold, gnu::noinline]] inline double unusualLength(double square) {
     return std::sqrt(square);
 }
-/// Scaled to unit length, which binary32 components never have exactly. Close to it the reciprocal of the length is a short
-/// series, whose next term is below the precision of binary64.
+/// Scaled to unit length.
 inline robot::Quat toUnitQuat(const data::Orient& o) {
     const robot::Quat q = toQuat(o);
-    const double square = dot(q, q);
-    const double excess = square - 1;
-    constexpr double kClose = 1e-6;
-    if (!(std::abs(excess) < kClose)) [[unlikely]]
-        return robot::normalized(q, unusualLength(square));
-    const double scale = 1 + excess * (excess * 0.375 - 0.5);
+    const double excess = lengthExcess(q);
+    if (!isNearUnit(excess)) [[unlikely]]
+        return robot::normalized(q, unusualLength(dot(q, q)));
+    const double scale = inverseLength(excess);
     return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 inline robot::Pose toFrame(const data::Pose& p) {

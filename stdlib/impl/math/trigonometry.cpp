@@ -1,6 +1,7 @@
 // Manual 1.15: angles in degrees.
 
 #include "runtime/robot/angles.h"
+#include "runtime/robot/fast_trig.h"
 #include "stdlib/impl/math/angles.h"
 #include "stdlib/impl/support/fail.h"
 
@@ -8,8 +9,6 @@
 #include "stdlib_constants.h"
 
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 using namespace rt;
 
@@ -19,52 +18,19 @@ namespace {
 
 constexpr double kTangentPole = 1.633123935319537e16; // tan(pi/2) of binary64
 
-/// Rest within +-45 degrees, and the quadrant 0..3 it belongs to. Both ways are exact: the product has few digits, and the two
-/// numbers subtracted are of one magnitude. remquo is left for large angles and for those half way between two quadrants.
-double reduced(double degrees, int& quadrant) {
-    constexpr double kUsual = 1e9;
-    const double quarters = std::rint(degrees * (1 / 90.0));
-    const double usual = degrees - quarters * 90.0;
-    if (std::abs(usual) < 45.0 && std::abs(degrees) < kUsual) {
-        quadrant = static_cast<int>(quarters) & 3;
-        return usual == 0 ? std::copysign(0.0, degrees) : usual;
-    }
-    int quotient = 0;
-    const double rest = std::remquo(degrees, 90.0, &quotient);
-    quadrant = quotient & 3;
-    return rest;
-}
-
 } // namespace
 
 double sinDeg(double degrees) {
-    int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * robot::kDeg;
-    const double value = quadrant % 2 == 0 ? std::sin(rest) : std::cos(rest);
-    return quadrant < 2 ? value : 0.0 - value;
+    return robot::trig::sinCosDeg(degrees).sine;
 }
 
 double cosDeg(double degrees) {
-    int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * robot::kDeg;
-    const double value = quadrant % 2 == 0 ? std::cos(rest) : std::sin(rest);
-    return quadrant == 0 || quadrant == 3 ? value : 0.0 - value;
-}
-
-SineCosine sinCosDeg(double degrees) {
-    int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * robot::kDeg;
-    double sine = rest, cosine = 1;
-    if (rest != 0) ::sincos(rest, &sine, &cosine);
-    if (quadrant % 2 != 0) std::swap(sine, cosine);
-    return {quadrant < 2 ? sine : 0.0 - sine, quadrant == 0 || quadrant == 3 ? cosine : 0.0 - cosine};
+    return robot::trig::sinCosDeg(degrees).cosine;
 }
 
 double tanDeg(double degrees) {
-    int quadrant = 0;
-    const double rest = reduced(degrees, quadrant) * robot::kDeg;
-    if (quadrant % 2 == 0) return std::tan(rest);
-    return rest == 0 ? (quadrant == 1 ? kTangentPole : -kTangentPole) : -1.0 / std::tan(rest);
+    const auto [sine, cosine] = robot::trig::sinCosDeg(degrees);
+    return cosine == 0 ? std::copysign(kTangentPole, sine) : sine / cosine;
 }
 
 double asinDeg(double value) {
@@ -86,6 +52,11 @@ namespace {
 
 bool outsideOne(double value) {
     return !(std::fabs(value) <= 1.0);
+}
+
+/// The other leg of the triangle whose hypotenuse is 1.
+double otherLeg(double leg) {
+    return std::sqrt((1 - leg) * (1 + leg));
 }
 
 Status badArc(TaskCore* task) {
@@ -116,13 +87,13 @@ double rt_TanDnum(double Angle) {
     return lib::tanDeg(Angle);
 }
 float rt_ATan(float Value) {
-    return static_cast<float>(lib::atanDeg(Value));
+    return static_cast<float>(robot::trig::atan2Deg(Value, 1));
 }
 double rt_ATanDnum(double Value) {
     return lib::atanDeg(Value);
 }
 float rt_ATan2(float Y, float X) {
-    return static_cast<float>(lib::atan2Deg(Y, X));
+    return static_cast<float>(robot::trig::atan2Deg(Y, X));
 }
 double rt_ATan2Dnum(double Y, double X) {
     return lib::atan2Deg(Y, X);
@@ -130,7 +101,7 @@ double rt_ATan2Dnum(double Y, double X) {
 
 Status rt_ASin(TaskCore* task, float* result, float Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = static_cast<float>(lib::asinDeg(Value));
+    *result = static_cast<float>(robot::trig::atan2Deg(Value, otherLeg(Value)));
     return kOk;
 }
 Status rt_ASinDnum(TaskCore* task, double* result, double Value) {
@@ -140,7 +111,7 @@ Status rt_ASinDnum(TaskCore* task, double* result, double Value) {
 }
 Status rt_ACos(TaskCore* task, float* result, float Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = static_cast<float>(lib::acosDeg(Value));
+    *result = static_cast<float>(robot::trig::atan2Deg(otherLeg(Value), Value));
     return kOk;
 }
 Status rt_ACosDnum(TaskCore* task, double* result, double Value) {

@@ -37,6 +37,39 @@ TEST_CASE("trigonometry is exact at multiples of 90 degrees", "[stdlib][math]") 
     CHECK(rt_ATan(-1) == -45.0F);
 }
 
+TEST_CASE("sines are those of the mathematical library, whatever the size of the angle", "[stdlib][math]") {
+    constexpr long double kTurn = 3.14159265358979323846264338327950288L / 180;
+    constexpr double kUlp = 2.3e-16; // below 2 ulp of the largest sine
+    for (double angle = -725.0625; angle < 725; angle += 0.8125) {
+        CHECK(std::abs(lib::sinDeg(angle) - static_cast<double>(std::sin(angle * kTurn))) < kUlp);
+        CHECK(std::abs(lib::cosDeg(angle) - static_cast<double>(std::cos(angle * kTurn))) < kUlp);
+    }
+    CHECK(lib::sinDeg(3.6e15 + 30) == lib::sinDeg(30)); // whole turns, beyond the range of the fast reduction
+    CHECK(lib::cosDeg(-3.6e15 - 90) == 0);
+    for (const double zero :
+         {lib::sinDeg(180), lib::sinDeg(-180), lib::cosDeg(90), lib::cosDeg(270), lib::sinDeg(-0.0)})
+        CHECK_FALSE(std::signbit(zero)); // would be printed as -0
+}
+
+TEST_CASE("arcs of num are correct to the last digit", "[stdlib][math]") {
+    constexpr long double kTurn = 3.14159265358979323846264338327950288L / 180;
+    const auto near = [](float angle, long double radians) {
+        return std::abs(static_cast<long double>(angle) - radians / kTurn) <=
+               0.500001L * std::abs(std::nextafter(angle, 1e9F) - angle);
+    };
+    for (float value = -1; value <= 1; value += 1 / 64.0F) {
+        float arc = 0;
+        REQUIRE(rt_ASin(nullptr, &arc, value) == kOk);
+        CHECK(near(arc, std::asin(static_cast<long double>(value))));
+        REQUIRE(rt_ACos(nullptr, &arc, value) == kOk);
+        CHECK(near(arc, std::acos(static_cast<long double>(value))));
+        CHECK(near(rt_ATan(value * 1000), std::atan(1000.0L * value)));
+        CHECK(near(rt_ATan2(value, -0.375F), std::atan2(static_cast<long double>(value), -0.375L)));
+    }
+    CHECK(rt_ATan(3e38F) == 90);
+    CHECK(rt_ATan2(-3e38F, -3e38F) == -135);
+}
+
 TEST_CASE("arc functions refuse arguments outside -1 to 1", "[stdlib][math]") {
     float angle = 7;
     CHECK(rt_ACos(nullptr, &angle, 0.5F) == kOk);
