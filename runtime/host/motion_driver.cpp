@@ -136,16 +136,31 @@ void MotionDriver::advance(Time time) {
     advancing_ = false;
 }
 
+motion::MotionState MotionDriver::tracedState(Time time) const {
+    motion::MotionState state = system_.sample(time);
+    if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
+        state.motors = motion::motorSide(system_, state, time);
+    return state;
+}
+
 /// Writes the samples up to this time.
 void MotionDriver::trace(Time time) {
     while (!traces_.empty() && nextSample_ <= time) {
-        motion::MotionState state = system_.sample(nextSample_);
-        if (std::any_of(traces_.begin(), traces_.end(), [](const auto* t) { return t->wantsMotors(); }))
-            state.motors = motion::motorSide(system_, state, nextSample_);
+        const motion::MotionState state = tracedState(nextSample_);
         for (TraceSink* trace : traces_)
             trace->sample(nextSample_, unitName_, state);
         nextSample_ += tick_;
+        skipStill(state, time);
     }
+}
+
+/// Goes to the last sample up to this time when the arm stays where it is for long: a program that polls its inputs passes days
+/// within seconds, and millions of equal samples would take minutes and gigabytes.
+void MotionDriver::skipStill(const motion::MotionState& state, Time time) {
+    constexpr Time kLong = 600 * kSecond;
+    if (time - nextSample_ < kLong || state.moving || system_.isLed() || system_.movesBesidesPath()) return;
+    const Time last = nextSample_ + (time - nextSample_) / tick_ * tick_;
+    if (tracedState(last) == state) nextSample_ = last;
 }
 
 void MotionDriver::tell(ArmChange news) {

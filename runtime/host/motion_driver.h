@@ -305,6 +305,8 @@ class MotionDriver final : public SteppedArm {
     static bool isSame(const Interrupted& interrupted, const Task& task, const MotionPointer& pointer);
     void advance(Time time);
     void trace(Time time);
+    motion::MotionState tracedState(Time time) const;
+    void skipStill(const motion::MotionState& state, Time time);
     void handle(const motion::MotionEvent& event);
     void schedule();
     void applyStops(motion::StopKind kind = motion::StopKind::Normal);

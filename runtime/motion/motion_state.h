@@ -26,6 +26,7 @@ struct MotionState {
     /// The axes as in a jointtarget: rax_1 to rax_6, then eax_a to eax_f (axis 7 of a seven-axis arm is eax_a). 0 for an axis
     /// that the arm does not have, kNotConnected for an external one.
     std::array<double, 6 + kExternalCount> numberedAxes() const;
+    friend bool operator==(const MotionState&, const MotionState&) = default;
 };
 
 inline std::array<double, 6 + kExternalCount> MotionState::numberedAxes() const {

@@ -379,6 +379,9 @@ bool MotionSystem::isIdle() const {
 bool MotionSystem::isMoving() const {
     return impl_->isMoving();
 }
+bool MotionSystem::movesBesidesPath() const {
+    return impl_->modifiers.areActive() || !impl_->independents.empty();
+}
 bool MotionSystem::hasRoom() const {
     return impl_->level.queue.size() < impl_->options.maxQueued;
 }

@@ -225,8 +225,9 @@ class MotionSystem {
     std::vector<MotionEvent> takeEvents();
 
     // ---- questions ----
-    bool isIdle() const;   ///< no move unfinished
-    bool isMoving() const; ///< some axis is moving now
+    bool isIdle() const;           ///< no move unfinished
+    bool isMoving() const;         ///< some axis is moving now
+    bool movesBesidesPath() const; ///< a modifier of the path or an independent axis can move it
     std::size_t unfinishedMoves() const;
     bool hasRoom() const; ///< another move can be ordered
     MoveStatus status(MoveId move) const;
