@@ -2,6 +2,7 @@
 
 #include "frontend/edit/rename.h"
 #include "frontend/query/recheck_edits.h"
+#include "frontend/query/shared_types.h"
 #include "frontend/sema/names.h"
 
 #include <algorithm>
@@ -74,7 +75,13 @@ RenameResult renameAt(const Snapshot& snapshot, const FileView& file, uint32_t o
     const Meaning meaning = meaningAt(snapshot, file, offset);
     result.problem = edit::newNameProblem(newName, snapshot.program(), meaning.record != nullptr);
     if (!result.problem.empty() || target.name == newName) return result;
-    result.files = editsOf(usesOf(snapshot, meaning, true, cancel), newName);
+    std::vector<Use> uses;
+    for (const Meaning& alike : alikeInAllTasks(snapshot, meaning))
+        for (Use& use : usesOf(snapshot, alike, true, cancel))
+            if (std::none_of(uses.begin(), uses.end(),
+                             [&](const Use& known) { return known.place == use.place; }))
+                uses.push_back(std::move(use));
+    result.files = editsOf(uses, newName);
     if (isCancelled(cancel)) return {};
     result.problem = meaningProblem(snapshot, tasks, options, result.files);
     if (!result.problem.empty()) {

@@ -46,10 +46,17 @@ struct CheckPlan {
     std::vector<Symbol*> held; ///< see Analyzer::holdUses
 };
 
+/// A file of a task.
+struct FilePlace {
+    size_t task = 0, file = 0;
+};
+
 /// A change whose check is not finished.
 struct Sketched {
-    size_t task = 0, file = 0;
+    FilePlace place;
     CheckPlan plan;
+    std::vector<FilePlace> others; ///< the same file in further tasks, which have the text of before
+    bool isLarge = false;          ///< the check that is left takes longer than the pause between two letters
 };
 
 } // namespace
@@ -72,6 +79,7 @@ struct Session::State {
     std::vector<SessionTask> tasks;
     Diagnostics across;
     std::optional<Sketched> sketched;
+    size_t largeFrom = size_t{256} << 10; ///< bytes, which are checked in 5 to 10 ms
 
     void openTask(TaskInput input);
     /// Takes the text of a file; the task has been entered. `earlier`: the plan of a change of this file that has not been checked.
@@ -80,6 +88,13 @@ struct Session::State {
     /// Checks what a change concerns.
     void carryOut(SessionTask& task, size_t index, CheckPlan plan);
     bool sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset);
+    std::vector<FilePlace> placesOf(const std::string& path) const;
+    /// Bytes that the check of a change reads beside the file in the first of its tasks.
+    size_t restOf(const std::vector<FilePlace>& places, const CheckPlan& plan) const;
+    /// Whether a change can be checked later: `plan` has been made for it.
+    bool canWait(const FilePlace& place, const CheckPlan& plan, size_t rest) const;
+    /// Takes the text of the sketched file in the other tasks that have it; that of the first has been checked.
+    void finishSketch();
     void complete();
     /// Completes a sketch of another file.
     void completeUnless(const std::string& path);
@@ -195,47 +210,81 @@ void Session::State::change(SessionTask& task, size_t index, const std::shared_p
     carryOut(task, index, takeTree(task, index, file, std::move(earlier)));
 }
 
-bool Session::State::sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset) {
-    std::optional<Sketched> place;
+std::vector<FilePlace> Session::State::placesOf(const std::string& path) const {
+    std::vector<FilePlace> places;
     for (size_t t = 0; t < tasks.size(); ++t)
         for (size_t i = 0; i < tasks[t].files.size(); ++i)
-            if (tasks[t].files[i].source->path() == file->path()) {
-                if (place) return false; // of several tasks
-                place = Sketched{t, i, {}};
-            }
-    if (!place || tasks[place->task].files[place->file].source->isBinary() || file->isBinary()) return false;
+            if (tasks[t].files[i].source->path() == path) places.push_back({t, i});
+    return places;
+}
+
+size_t Session::State::restOf(const std::vector<FilePlace>& places, const CheckPlan& plan) const {
+    size_t size = 0;
+    for (size_t i = 0; i < places.size(); ++i) {
+        const std::vector<SessionFile>& files = tasks[places[i].task].files;
+        for (size_t k = 0; k < files.size(); ++k)
+            if (k == places[i].file ? i > 0 : !plan.alone) size += files[k].source->text().size();
+    }
+    return size;
+}
+
+// Of a small program all is known at once; in a large one other files keep for a moment what they had from the last check.
+bool Session::State::canWait(const FilePlace& place, const CheckPlan& plan, size_t rest) const {
+    if (plan.alone) return !plan.isNamed;
+    const TaskFile& file = analyzer->task().files[place.file];
+    return file.modules.size() == program->trees[file.slot]->modules.size() && rest >= largeFrom;
+}
+
+bool Session::State::sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset) {
+    std::vector<FilePlace> places = placesOf(file->path());
+    if (places.empty()) return false;
+    const FilePlace place = places.front();
+    if (tasks[place.task].files[place.file].source->isBinary() || file->isBinary()) return false;
     completeUnless(file->path());
-    SessionTask& task = tasks[place->task];
-    for (std::shared_ptr<const SourceFile>& known : task.input.files)
-        if (known->path() == file->path()) known = file;
-    if (sketched) place->plan = std::move(sketched->plan);
-    sketched.reset();
+    for (SessionTask& task : tasks)
+        for (std::shared_ptr<const SourceFile>& known : task.input.files)
+            if (known->path() == file->path()) known = file;
+    CheckPlan plan;
+    if (sketched) plan = std::move(sketched->plan);
+    SessionTask& task = tasks[place.task];
     analyzer->enterTask(std::move(task.scope));
-    place->plan = takeTree(task, place->file, file, std::move(place->plan));
-    if (!place->plan.alone || place->plan.isNamed) {
-        carryOut(task, place->file, std::move(place->plan));
-        checkAcross();
+    plan = takeTree(task, place.file, file, std::move(plan));
+    const size_t rest = restOf(places, plan);
+    const bool waits = canWait(place, plan, rest);
+    places.erase(places.begin());
+    sketched = Sketched{place, {}, std::move(places), rest >= largeFrom};
+    if (!waits) {
+        carryOut(task, place.file, std::move(plan));
+        finishSketch();
         return true;
     }
-    analyzer->sketchFile(place->file, offset);
+    analyzer->sketchFile(place.file, offset);
     sink.take();
     task.scope = analyzer->leaveTask();
-    sketched = std::move(place);
+    sketched->plan = std::move(plan);
     return true;
+}
+
+void Session::State::finishSketch() {
+    const Sketched open = std::move(*sketched);
+    sketched.reset();
+    const std::shared_ptr<const SourceFile> file = tasks[open.place.task].files[open.place.file].source;
+    for (const FilePlace& other : open.others)
+        change(tasks[other.task], other.file, file);
+    checkAcross();
 }
 
 void Session::State::complete() {
     if (!sketched) return;
-    Sketched open = std::move(*sketched);
-    sketched.reset();
-    SessionTask& task = tasks[open.task];
+    SessionTask& task = tasks[sketched->place.task];
     analyzer->enterTask(std::move(task.scope));
-    carryOut(task, open.file, std::move(open.plan));
-    checkAcross();
+    carryOut(task, sketched->place.file, std::move(sketched->plan));
+    finishSketch();
 }
 
 void Session::State::completeUnless(const std::string& path) {
-    if (sketched && tasks[sketched->task].files[sketched->file].source->path() != path) complete();
+    if (sketched && tasks[sketched->place.task].files[sketched->place.file].source->path() != path)
+        complete();
 }
 
 void Session::State::checkAcross() {
@@ -295,12 +344,20 @@ bool Session::sketch(const std::shared_ptr<const SourceFile>& file, uint32_t off
     return state_->sketch(file, offset);
 }
 
+void Session::setLargeFrom(size_t bytes) {
+    state_->largeFrom = bytes;
+}
+
 void Session::complete() {
     state_->complete();
 }
 
 bool Session::isComplete() const {
     return !state_->sketched;
+}
+
+bool Session::isSlowToComplete() const {
+    return state_->sketched && state_->sketched->isLarge;
 }
 
 void Session::setGuest(const std::string& guest, const std::string& host) {

@@ -28,12 +28,17 @@ class Session {
     bool change(const std::shared_ptr<const SourceFile>& file);
 
     /// As change(), for an answer about `offset` that cannot wait: of the file all declarations are known then, but bodies of
-    /// routines only around the offset, and diagnostics() are those of before. Everything is checked at once where others can
-    /// see the change. False: the file is not part of exactly one task, use change().
+    /// routines only around the offset, and diagnostics() are those of before. Where others can see the change, everything is
+    /// checked at once in a small program; in a large one other files are as the last check has left them. So are the files of
+    /// further tasks that have this one. False: no task has such a text, use change().
     bool sketch(const std::shared_ptr<const SourceFile>& file, uint32_t offset);
+    /// From how many bytes beside the file on, in all its tasks, sketch() counts what a change concerns as large.
+    void setLargeFrom(size_t bytes);
     /// Checks what sketch() has left out. Nothing, when that is nothing.
     void complete();
     bool isComplete() const;
+    /// Whether complete() would check files of such a size.
+    bool isSlowToComplete() const;
 
     /// Names in the module `guest` of any task mean from now on what they mean in the module `host`, its LOCAL declarations
     /// included. For texts that are looked at as if they stood in the host, such as the expressions of a debugger. Before the

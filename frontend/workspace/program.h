@@ -43,13 +43,18 @@ class Program {
     /// Takes in what has changed. False when that is nothing.
     bool update();
     /// Takes in a change of the text of one module for an answer at a place in it that cannot wait. `offsetIn` gives the place
-    /// in the new text. Bodies of routines elsewhere in the module are checked by the next update(). False: nothing was done,
+    /// in the new text. Bodies of routines elsewhere in the module, and in a large program other modules that can see the
+    /// change, are checked by the next update(). False: nothing was done,
     /// call update().
     bool updateAround(const std::string& path,
                       const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
+    /// Whether a change has been noted since the last update() or updateAround().
+    bool hasChanged() const { return stale_ || !changed_.empty(); }
     /// Whether updateAround() has left something to check.
     bool isSketched() const { return session_ && !session_->isComplete(); }
-    bool isUpToDate() const { return !stale_ && changed_.empty() && session_->isComplete(); }
+    /// Whether that is all of a large program.
+    bool isSlowToComplete() const { return session_ && session_->isSlowToComplete(); }
+    bool isUpToDate() const { return !hasChanged() && session_->isComplete(); }
 
     /// Of the last update that changed something; no two updates of any programs have the same.
     uint64_t generation() const { return generation_; }

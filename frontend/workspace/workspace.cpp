@@ -163,6 +163,16 @@ bool Workspace::isSketched() const {
                        [](const auto& program) { return program->isSketched(); });
 }
 
+bool Workspace::isSlowToComplete() const {
+    return std::any_of(programs_.begin(), programs_.end(),
+                       [](const auto& program) { return program->isSlowToComplete(); });
+}
+
+Program* Workspace::programAsAnswered(const std::string& path) const {
+    Program* owner = chosenOwner(path);
+    return owner && owner->hasModule(path) && !owner->hasChanged() ? owner : nullptr;
+}
+
 Program* Workspace::ownerOf(const std::string& path) {
     for (const auto& program : programs_)
         program->update();

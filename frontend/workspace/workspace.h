@@ -46,6 +46,11 @@ class Workspace {
                            const std::function<uint32_t(const std::shared_ptr<const SourceFile>&)>& offsetIn);
     /// Whether the last answer of that kind has left something to check.
     bool isSketched() const;
+    /// Whether that takes long.
+    bool isSlowToComplete() const;
+    /// The program that a module belonged to at the last answer of any kind, with what that has left to check; null: it has to be
+    /// asked for by programOf, because something has changed since.
+    Program* programAsAnswered(const std::string& path) const;
     /// Gives an open file that no program reads one of its own, if it is a module, a program file or a configuration. A program
     /// file always gets one.
     void adopt(const std::string& path);

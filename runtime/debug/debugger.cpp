@@ -166,7 +166,9 @@ int32_t Debugger::continueAt(State& state, const Frame* at, int32_t here) {
 
 /// Halts before at->statement; the program pointer may be moved meanwhile.
 int32_t Debugger::stopHere(Task& task, State& state, Frame* at, int32_t here, StopReason reason) {
-    state.entry = false;
+    if (state.entry) // the stop at the entry is one for all tasks
+        for (auto& [other, its] : states_)
+            its.entry = false;
     state.mode = Mode::Run;
     state.standing = at;
     const Status status = standStill(task, reason);
@@ -267,6 +269,11 @@ void Debugger::resumeOthers(const Task& task) {
     }
 }
 
+/// A task that has not come to its entry yet, because a stop of another one came first, still stops there.
+Debugger::Mode Debugger::runningMode(const State& state, Mode mode) {
+    return state.entry && mode == Mode::Run ? Mode::In : mode;
+}
+
 /// One task is stepped, the others execute until it halts again.
 std::string Debugger::begin(Task& task, Mode mode, bool alone) {
     if (std::string problem = refusal(task); !problem.empty()) return problem;
@@ -279,9 +286,9 @@ std::string Debugger::begin(Task& task, Mode mode, bool alone) {
             return "";
         }
     }
-    state.mode = mode;
-    state.passFirst = (task.stopCause() == StopCause::AtMain || isAtFaultyStatement(task)) && forward &&
-                      mode != Mode::Cursor;
+    state.mode = runningMode(state, mode);
+    state.passFirst = !state.entry && (task.stopCause() == StopCause::AtMain || isAtFaultyStatement(task)) &&
+                      forward && mode != Mode::Cursor;
     state.depth = steppingDepthOf(state.standing != nullptr ? state.standing : task.frame);
     task.setStepwise(mode != Mode::Run && mode != Mode::Cursor);
     if (!alone) resumeOthers(task);
@@ -341,7 +348,7 @@ std::string Debugger::pause(Task& task) {
 void Debugger::continuous(Task& task) {
     State& state = stateOf(task);
     if (state.backwardLast && state.standing != nullptr) turnForward(task, state);
-    state.mode = Mode::Run;
+    state.mode = runningMode(state, Mode::Run);
     task.setStepwise(false);
 }
 

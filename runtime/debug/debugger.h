@@ -175,6 +175,7 @@ class Debugger final : public StepHook {
 
     State& stateOf(const Task& task) { return states_[&task]; }
     bool shouldStop(Task& task, State& state, Frame* at, StopReason& reason);
+    static Mode runningMode(const State& state, Mode mode);
     static bool stepEnds(const State& state, const Frame* at);
     /// Stops every task where it is; the stop is that of `task`.
     void stopAll(Task& task);

@@ -54,6 +54,7 @@ function prepare() {
         "editor.hover.delay": 200,
         "testing.automaticallyOpenTestResults": "neverOpen",
         "files.autoSave": "off",
+        "workbench.quickOpen.closeOnFocusLost": false,
     });
     for (const scope of ["User", "Machine"]) { // the path of a program belongs to the machine of the server
         mkdirSync(join(scratch, "user", scope), { recursive: true });
@@ -185,6 +186,31 @@ const steps = {
         await bench.command("Debug Console: Focus on Debug Console View");
         await bench.expectText(".repl", /sum 6/, "output of TPWrite");
         await bench.shot("debug-console");
+    },
+    /** The task `check`: mistakes in an open file and in one that no editor has open are one row each, though the language server reports them as well. */
+    async task(bench) {
+        await bench.goTo(12, 1);
+        await bench.page.keyboard.press("End");
+        await bench.page.keyboard.type("\nn:=absent;");
+        const wrong = join(folder, "wrong.modx");
+        writeFileSync(wrong, "MODULE wrong\n  PROC broken()\n    missing := 1;\n  ENDPROC\nENDMODULE\n");
+        await bench.command("Problems: Focus on Problems View");
+        await bench.expectText(".markers-panel", /'absent' is not declared[^]*'missing' is not declared/, "mistakes, from the server");
+        await bench.page.waitForTimeout(1000);
+        await bench.command("Tasks: Run Build Task");
+        await bench.page.waitForTimeout(3000);
+        await bench.page.locator('.quick-input-list .monaco-list-row:has-text("check")').first().click();
+        await bench.expectText(".part.panel", /check - Task/, "terminal of the task"); // its text is a picture
+        await bench.page.waitForTimeout(3000);
+        await bench.shot("task");
+        await bench.command("Problems: Focus on Problems View");
+        const found = await bench.expectText(".markers-panel", /'missing' is not declared/, "mistakes after the task");
+        await bench.shot("task-problems");
+        const rows = found.match(/'\w+' is not declared/g) ?? [];
+        assert.deepEqual(rows, ["'absent' is not declared", "'missing' is not declared"], "rows after the task");
+        rmSync(wrong);
+        cpSync(join(here, "folder", "palletizer.modx"), join(folder, "palletizer.modx")); // the task has saved it
+        await bench.expectText(".markers-panel", /No problems/, "Problems when the file is gone");
     },
     async tests(bench) {
         await bench.command("Testing: Focus on Test Explorer View");

@@ -70,6 +70,28 @@ class GlobalNamesAfterEdits(LspCase):
         self.assertEqual(self.offered(client, document, user), [])
 
 
+class DeclarationsOfLargePrograms(LspCase):
+    def test_offered_described_and_checked(self):
+        """Decision 144: a declaration that other modules see is offered and described before these are checked; then a
+        module that names it is judged."""
+        routine = "  PROC filler{0}()\n" + "    TPWrite \"filler\";\n" * 60 + "  ENDPROC\n"
+        self.write("filler.modx", "MODULE filler\n" + "".join(routine.format(i) for i in range(250)) + "ENDMODULE\n")
+        user = "MODULE user\n  PROC use()\n    mine := v100;\n  ENDPROC\nENDMODULE\n"
+        other = self.write("user.modx", user)
+        text = "MODULE m\n  PROC main()\n    MoveL *,m;\n  ENDPROC\nENDMODULE\n"
+        client, document = self.opened(text)
+        self.assertEqual(self.codes(client.published(uri(other))), ["RAP2001"])
+        declaration = "  ! How fast we are.\n  VAR speeddata mine;\n"
+        client.change(document, 2, ((1, 0), (1, 0), declaration))
+        items = client.request("textDocument/completion", {"textDocument": {"uri": document},
+                                                           "position": {"line": 4, "character": 13}})["items"]
+        first = min(items, key=lambda i: i["sortText"])
+        self.assertEqual((first["label"], first["detail"]), ("mine", "VAR speeddata"))
+        described = client.request("completionItem/resolve", first)["documentation"]["value"]
+        self.assertIn("How fast we are.", described)
+        self.assertEqual(client.next_published(uri(other)), [])
+
+
 class Language(LspCase):
     def setUp(self):
         super().setUp()

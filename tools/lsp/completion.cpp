@@ -90,7 +90,9 @@ Json resolveCompletion(State& state, const Json& params) {
     const Json* data = optionalField(params, "data");
     if (!data || !data->is_object()) return item;
     const std::string path = textField(*data, "path"), key = textField(*data, "key");
-    const rapid::workspace::Program* program = state.workspace.programOf(path);
+    // Editors ask between two letters: the rest of a change need not have been checked.
+    const rapid::workspace::Program* program = state.workspace.programAsAnswered(path);
+    if (!program) program = state.workspace.programOf(path);
     if (!program) return item;
     const query::ItemDocumentation found = query::resolveItem(state.snapshot(*program), key);
     const bool markdown = hasElement(

@@ -200,23 +200,26 @@ class Writer {
 };
 
 /// Messages in their order; when none is waiting, or when one has been waited for long enough, diagnostics. What takes long
-/// waits for a pause. An answer while typing leaves a moment for the next letter.
+/// waits for a pause. An answer while typing leaves a moment for the next letter, and a longer one where others see the change in a large program.
 void work(Server& server, Inbox& inbox, const Writer& writer, std::atomic<int64_t>& client) {
     using std::chrono::milliseconds;
-    constexpr milliseconds kLongest(400), kPause(300), kIdle(100), kMoment(15);
+    constexpr milliseconds kLongest(400), kLongestInLarge(10000), kPause(300), kIdle(100), kMoment(15);
     Clock::time_point upToDate = Clock::now(), lastMessage = upToDate;
     const auto waiting = [&inbox] { return inbox.hasMessages(); };
     bool ended = false;
     while (!ended && !server.hasEnded() && !writer.isBroken()) {
-        const bool isTyping = server.isTyping() && Clock::now() - lastMessage < kMoment;
+        const bool isLarge = server.isTypingInLarge();
+        const milliseconds moment = isLarge ? kPause : kMoment;
+        const bool isTyping = server.isTyping() && Clock::now() - lastMessage < moment;
         const bool isFree = !waiting() && !isTyping;
-        if (server.isBehind() && (isFree || Clock::now() - upToDate > kLongest)) {
+        if (server.isBehind() &&
+            (isFree || Clock::now() - upToDate > (isLarge ? kLongestInLarge : kLongest))) {
             const bool quiet = Clock::now() - lastMessage >= kPause;
             server.catchUp(quiet, waiting() ? std::function<bool()>() : waiting);
             upToDate = Clock::now();
         }
         Message message;
-        const auto deadline = isTyping            ? lastMessage + kMoment
+        const auto deadline = isTyping            ? lastMessage + moment
                               : server.isBehind() ? lastMessage + kPause
                                                   : Clock::now() + kIdle;
         if (!inbox.take(message, deadline, ended)) continue;

@@ -32,6 +32,8 @@ class Server {
     bool isBehind() const;
     /// The last answer was given while the user types, before the rest of the module was checked: the next edit is near.
     bool isTyping() const { return state_.workspace.isSketched(); }
+    /// The same, and the check takes so long that it should wait until the user pauses.
+    bool isTypingInLarge() const { return state_.workspace.isSlowToComplete(); }
 
     bool hasEnded() const { return phase_ == Phase::Ended; }
     /// After the end of the conversation: 0 when the client has asked for a shutdown, else 1.

@@ -22,11 +22,22 @@ function makeClient(context: vscode.ExtensionContext): LanguageClient {
     const options: LanguageClientOptions = {
         documentSelector: [{ language: "rapid" }, { language: "abb-cfg" }, { pattern: "**/*.pgf" }],
         initializationOptions: settings(),
+        // The owner of the problem matcher: VS Code keeps one list of an owner for each file, so that a task shows no mistake twice.
+        diagnosticCollectionName: "rapidc",
         synchronize: { configurationSection: "rapidc", fileEvents: watcher },
         // The server publishes diagnostics as well as answering requests for them: the client would show both.
         middleware: { ...lensMiddleware, provideDiagnostics: () => undefined, provideWorkspaceDiagnostics: () => undefined },
     };
     return new LanguageClient("rapidc", "RAPID", server, options);
+}
+
+/** Puts back what a task with the problem matcher has replaced: the server knows all files of the workspace, and open ones as they are. */
+function showDiagnosticsAgain(): void {
+    const collection = client?.diagnostics;
+    if (!collection) return;
+    const all: [vscode.Uri, readonly vscode.Diagnostic[]][] = [];
+    collection.forEach((uri, list) => all.push([uri, list]));
+    collection.set(all);
 }
 
 async function startServer(context: vscode.ExtensionContext): Promise<void> {
@@ -46,7 +57,7 @@ async function stopServer(): Promise<void> {
 }
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
-    registerTasks(context);
+    registerTasks(context, showDiagnosticsAgain);
     registerDebugger(context);
     registerTests(context);
     registerCommands(context);

@@ -24,8 +24,15 @@ function makeTask(definition: Definition, scope: vscode.WorkspaceFolder | vscode
     return task;
 }
 
-export function registerTasks(context: vscode.ExtensionContext): void {
+/** Time in ms in which VS Code reads the last lines of a task that has ended. */
+const reading = 1000;
+
+/** `matched` is called when the problem matcher has replaced problems of the same owner. */
+export function registerTasks(context: vscode.ExtensionContext, matched: () => void): void {
     context.subscriptions.push(
+        vscode.tasks.onDidEndTask((event) => {
+            if (event.execution.task.problemMatchers.includes("$rapidc")) setTimeout(matched, reading);
+        }),
         vscode.tasks.registerTaskProvider("rapidc", {
             provideTasks: () =>
                 (vscode.workspace.workspaceFolders ?? []).flatMap((folder) =>

@@ -28,6 +28,8 @@ def test_runs_to_its_end(a):
     """Contract 14: TPWrite is stdout, then exited and one terminated."""
     a.start("part.modx")
     equal(a.run_out(), ["abc", "count 2", "total 30"])
+    for command in ("loadedSources", "terminate"):
+        equal(a.refused(command), "the program has ended")
 
 
 def test_stop_on_entry(a):

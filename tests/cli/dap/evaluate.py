@@ -57,6 +57,17 @@ def test_what_is_wrong(a):
     equal(a.value("total"), "0")
 
 
+def test_messages_speak_of_the_text_of_the_user(a):
+    """The text is put into a routine; a message does not name what follows it there."""
+    at_inside(a)
+    for expression, message in (("1 +", "'1 +' is not complete"), ("twice(", "'twice(' is not complete"),
+                                ("total := 5", "'total := 5' is an instruction: an expression is expected"),
+                                ("TPWrite what", "'TPWrite what' is an instruction: an expression is expected")):
+        for context in ("watch", "hover"):
+            equal(a.refused("evaluate", expression=expression, frameId=a.top(), context=context), message)
+    equal(a.value("total"), "0")
+
+
 def test_frames_have_scopes_of_their_own(a):
     at_inside(a)
     outer = a.frames()[1]["id"]

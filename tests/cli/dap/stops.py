@@ -56,6 +56,14 @@ def test_data_breakpoints(a):
     a.run_out()
 
 
+def test_signals_are_completed(a):
+    """The console takes the names of signals, so it offers them."""
+    a.start("traps.modx", [WAITS], config=[path("io.cfg")])
+    a.stopped("breakpoint")
+    found = a.ask("completions", text="SetDO dop", column=10, frameId=a.top())["targets"]
+    equal([(t["label"], t["detail"], t["start"], t["length"]) for t in found], [("doPart", "DO", 7, 3)])
+
+
 def test_trap_lies_on_what_it_interrupts(a):
     """Contract 8."""
     a.start("traps.modx", [TRAP], config=[path("io.cfg")])
@@ -426,6 +434,31 @@ def test_background_task(a):
     b.set_lines("two_b.modx", [])
     b.go()
     b.run_out()
+    b.close()
+
+
+def test_entry_after_a_stop_of_a_background_task(a):
+    """Launch argument stopOnEntry: the program stops before its first instruction, though a STATIC task has stopped at a
+    breakpoint while an event routine was executed. Two tasks have one stop at the entry."""
+    line_b = line_of("two_b.modx", "! b")
+    a.initialize()
+    a.set_lines("two_b.modx", [{"line": line_b, "condition": "own = 0"}])
+    launched = a.send("launch", {"program": path("starts.modx"), "tasks": ["T_B:STATIC=" + path("two_b.modx")],
+                                 "config": [path("start.cfg")], "stopOnEntry": True})
+    a.event("initialized")
+    a.ask("configurationDone")
+    a.answer(launched)
+    a.stopped("breakpoint", line_b)
+    a.go()
+    a.stopped("entry", line_of("starts.modx", "! entry"))
+    a.go()
+    a.run_out()
+    a.close()
+    b = type(a)()
+    b.start("two_a.modx", tasks=["T_B=" + path("two_b.modx")], stopOnEntry=True)
+    b.stopped("entry")
+    b.go()
+    equal(sorted(b.run_out()), ["a ends", "b ends"])
     b.close()
 
 

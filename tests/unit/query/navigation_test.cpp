@@ -171,6 +171,48 @@ TEST_CASE("query: renaming in all tasks, and of components and modules", "[query
     CHECK(after(rename(p, 3, "other"), "t1_1.modx").starts_with("MODULE other\n"));
 }
 
+// A persistent that tasks share has the same type in all of them (manual 1.20), the names of its components included.
+TEST_CASE("query: records of shared persistents are renamed in all tasks", "[query][rename]") {
+    const auto task = [](const char* module, const std::string& body, const std::string& marks) {
+        return "MODULE " + std::string(module) + "\nRECORD si" + (marks.empty() ? "" : "$2") + "ze\nnum wid" +
+               marks + "th;\nENDRECORD\nRECORD part\nsize of;\nENDRECORD\n" +
+               "RECORD other\nnum width;\nENDRECORD\nPERS part shared{2}:=[[[1]],[[2]]];\nVAR other o;\nPROC "
+               "main()\n" +
+               body + "\nENDPROC\nENDMODULE\n";
+    };
+    const Program p = Program::ofTasks({{task("a", "shared{1}.of.width:=o.width;", "$1")},
+                                        {task("b", "o.width:=shared{2}.of.width;", "")},
+                                        {"MODULE c\nRECORD size\nnum width;\nENDRECORD\nVAR size s;\n"
+                                         "PROC main()\ns.width:=1;\nENDPROC\nENDMODULE\n"}});
+    const RenameResult width = rename(p, 1, "breadth");
+    CHECK(width.problem == "");
+    CHECK(after(width, "t1_1.modx").find("shared{1}.of.breadth:=o.width;") != std::string::npos);
+    CHECK(after(width, "t2_1.modx").find("RECORD size\nnum breadth;") != std::string::npos);
+    CHECK(after(width, "t2_1.modx").find("o.width:=shared{2}.of.breadth;") != std::string::npos);
+    CHECK(width.files.size() == 2); // the third task shares nothing
+    const RenameResult size = rename(p, 2, "extent");
+    CHECK(size.problem == "");
+    CHECK(after(size, "t2_1.modx").find("RECORD extent\nnum width;\nENDRECORD\nRECORD part\nextent of;") !=
+          std::string::npos);
+    CHECK(size.files.size() == 2);
+}
+
+TEST_CASE("query: a record of a module that several tasks load is renamed once", "[query][rename]") {
+    const std::string shared =
+        "MODULE shared\nRECORD part\nnum wid$1th;\nENDRECORD\nPERS part common:=[0];\nENDMODULE\n";
+    const std::string plain =
+        "MODULE shared\nRECORD part\nnum width;\nENDRECORD\nPERS part common:=[0];\nENDMODULE\n";
+    const std::string use = "\nPROC main()\ncommon.width:=1;\nENDPROC\nENDMODULE\n";
+    const Program p = Program::ofTasks({{"MODULE a" + use, shared}, {"MODULE b" + use, plain}});
+    const RenameResult width = rename(p, 1, "breadth");
+    CHECK(width.problem == "");
+    CHECK(width.files.size() == 4);
+    for (const char* path : {"t1_1.modx", "t2_1.modx"})
+        CHECK(after(width, path).find("common.breadth:=1;") != std::string::npos);
+    for (const char* path : {"t1_2.modx", "t2_2.modx"})
+        CHECK(after(width, path).find("num breadth;") != std::string::npos);
+}
+
 TEST_CASE("query: names that cannot be renamed, and new ones that are refused", "[query][rename]") {
     const Program p(
         {"MODULE m\nVAR num n;\nVAR num taken;\nPROC main()\nVAR num inner;\nn$1:=Abs$2(3$3);\nI$4F TRUE "

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <random>
@@ -137,4 +138,84 @@ TEST_CASE("query: an answer at the cursor does not depend on the check of the re
     for (size_t i = 0; i < paths.size(); i += stride)
         for (const bool signalsKnown : {false, true})
             typeInto(paths[i], paths[(i + 400) % paths.size()], random, 12, signalsKnown);
+}
+
+namespace {
+
+/// A session with a module that is typed in, in each of some tasks, beside another one.
+struct Typing {
+    static constexpr const char* kPath = "/cell/typed.modx";
+
+    Typing(const std::string& text, size_t tasks, size_t largeFrom) : session(options()) {
+        session.setLargeFrom(largeFrom);
+        std::vector<sema::TaskInput> inputs(tasks);
+        for (size_t i = 0; i < tasks; ++i) {
+            inputs[i].name = "T_ROB" + std::to_string(i + 1);
+            inputs[i].files = {std::make_shared<const SourceFile>(kPath, text),
+                               std::make_shared<const SourceFile>(
+                                   "/cell/other.modx", "MODULE other\n  VAR speeddata slow;\nENDMODULE\n")};
+        }
+        session.open(inputs);
+    }
+    static sema::CheckOptions options() {
+        sema::CheckOptions options;
+        options.library = sema::testing::library();
+        return options;
+    }
+    /// The labels of what has the expected type at `$1`, with those that the library declares left out.
+    std::string offered(const std::string& marked) {
+        const auto place = static_cast<uint32_t>(marked.find("$1"));
+        std::string text = marked;
+        text.erase(place, 2);
+        REQUIRE(session.sketch(std::make_shared<const SourceFile>(kPath, text), place));
+        return offeredAt(place);
+    }
+    std::string offeredAt(uint32_t place) {
+        const Snapshot snapshot(session.program());
+        std::string labels;
+        for (const CompletionItem& item : completionAt(snapshot, *snapshot.file(kPath), place).items)
+            if (item.fits && item.symbol && !item.symbol->predefined) labels += item.label + " ";
+        return labels;
+    }
+
+    sema::Session session;
+};
+
+} // namespace
+
+// Decision 144: the declarations of the module and the routine at the cursor are those of the text as it is now, though other modules
+// that can see them have not been checked.
+TEST_CASE("query: declarations of a large program are offered as soon as they are typed", "[query]") {
+    Typing typing("MODULE typed\nENDMODULE\n", 1, 0);
+    CHECK(typing.offered("MODULE typed\n  VAR speeddata mine;\n  PROC go(speeddata given)\n"
+                         "    VAR speeddata own;\n    MoveJ *,$1\n  ENDPROC\nENDMODULE\n") ==
+          "given own mine slow ");
+    CHECK(typing.session.isSlowToComplete());
+    // A name with one more letter, a parameter whose type is different, and a variable that is gone.
+    CHECK(typing.offered("MODULE typed\n  VAR speeddata mines;\n  PROC go(num given)\n"
+                         "    MoveJ *,$1\n  ENDPROC\nENDMODULE\n") == "mines slow ");
+    typing.session.complete();
+    CHECK_FALSE(typing.session.isSlowToComplete());
+    CHECK(typing.session.isComplete());
+}
+
+TEST_CASE("query: declarations of a small program are checked at once", "[query]") {
+    Typing typing("MODULE typed\nENDMODULE\n", 1, SIZE_MAX);
+    CHECK(typing.offered("MODULE typed\n  VAR speeddata mine;\n  PROC go()\n    MoveJ *,$1\n"
+                         "  ENDPROC\nENDMODULE\n") == "mine slow ");
+    CHECK(typing.session.isComplete());
+}
+
+TEST_CASE("query: a module of several tasks is sketched in the first", "[query]") {
+    Typing typing("MODULE typed\n  PROC go()\n    MoveJ *,\n  ENDPROC\nENDMODULE\n", 3, SIZE_MAX);
+    CHECK(typing.offered("MODULE typed\n  PROC go()\n    VAR speeddata own;\n    MoveJ *,$1\n"
+                         "  ENDPROC\nENDMODULE\n") == "own slow ");
+    CHECK_FALSE(typing.session.isComplete());
+    CHECK(typing.offered("MODULE typed\n  PROC go()\n    VAR speeddata owns;\n    MoveJ *,$1\n"
+                         "  ENDPROC\nENDMODULE\n") == "owns slow ");
+    typing.session.complete();
+    const Snapshot snapshot(typing.session.program());
+    REQUIRE(snapshot.filesOf(Typing::kPath).size() == 3);
+    for (const FileView* file : snapshot.filesOf(Typing::kPath))
+        CHECK(file->text().find("owns") != std::string_view::npos);
 }

@@ -214,16 +214,15 @@ void change(Session& session, Random& random, const std::shared_ptr<const Source
             const std::string& before) {
     const std::string now(file->text());
     const size_t way = below(random, 4);
-    if (way == 3) { // half of the new text: what is typed next
+    session.setLargeFrom(below(random, 2) == 0 ? 0 : SIZE_MAX); // whether other files wait
+    if (way == 3) {                                             // half of the new text: what is typed next
         const std::string half = now.substr(0, now.size() / 2) + before.substr(before.size() / 2);
         const auto typed = std::make_shared<const SourceFile>(file->path(), half);
         session.sketch(typed, static_cast<uint32_t>(below(random, half.size() + 1)));
     }
-    if (way != 0) session.sketch(file, static_cast<uint32_t>(below(random, now.size() + 1)));
-    if (way == 0 || session.program().tasks.size() > 1)
+    if (way == 0 || !session.sketch(file, static_cast<uint32_t>(below(random, now.size() + 1))))
         REQUIRE(session.change(file));
-    else
-        session.complete();
+    session.complete();
     REQUIRE(session.isComplete());
 }
 

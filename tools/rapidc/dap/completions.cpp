@@ -1,4 +1,4 @@
-// Completions in the console: data, routines and words whose names begin as the text does; components after a point.
+// Completions in the console: data, signals, routines and words whose names begin as the text does; components after a point.
 
 #include "tools/rapidc/dap/inspection_requests.h"
 
@@ -88,6 +88,11 @@ Json completionsFor(Context& context, const Site& site, const std::string& text,
     }
     for (const rt::DebugVariable& variable : data)
         items.add(variable.name, "variable", rt::typeName(variable));
+    const rt::IoSystem& io = context.controller().io();
+    for (std::size_t i = 0; i < io.size(); ++i) {
+        const rt::SignalConfig& signal = io.config(static_cast<rt::SignalId>(i));
+        items.add(signal.name, "variable", rt::signalTypeName(signal.type));
+    }
     for (const rt::RoutineEntry* entry : context.controller().tables().routines()) {
         const bool function = entry->kind == rt::kRoutineFunc;
         if (entry->kind != rt::kRoutineTrap && entry->desc->isBuiltin == 0)

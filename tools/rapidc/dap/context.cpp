@@ -55,8 +55,12 @@ uint32_t ClientFacts::lineIn(int64_t line) const {
     return static_cast<uint32_t>(std::clamp<int64_t>(line + (linesStartAt1 ? 0 : 1), 1, INT32_MAX));
 }
 
+void Context::requireProgram() const {
+    if (!program) throw Refusal(hasEnded ? "the program has ended" : "no program has been launched");
+}
+
 rt::Controller& Context::controller() const {
-    if (!program) throw Refusal("no program has been launched");
+    requireProgram();
     return program->controller();
 }
 

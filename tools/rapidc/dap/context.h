@@ -33,8 +33,10 @@ struct Context {
     std::function<std::string(int64_t reference, const std::string& name)> expressionOf = {};
     /// The routine in progress that a frameId means, and its place in the call stack, innermost 0; throws a Refusal.
     std::function<FramePlace(int64_t frame)> frameOf = {};
+    bool hasEnded = false; ///< a program has been launched before
 
     /// All of these throw a Refusal when the session is in another state.
+    void requireProgram() const;
     rt::Controller& controller() const;
     rt::Debugger& debugger() const;
     /// The task with that number; a thread of the protocol.

@@ -37,6 +37,7 @@ constexpr const char* kRoutine = "rapidc_evaluate";
 constexpr const char* kShown = "(expression)"; ///< its name in events
 constexpr const char* kResult = "rapidc_result";
 constexpr const char* kError = "rapidc_error";
+constexpr const char* kAfterText = "\n \n"; ///< after the last one comes what the user has not written
 
 std::string pathOf(std::size_t task) {
     return fmt::format("expression:{}.modx", task);
@@ -77,9 +78,10 @@ struct ExpressionCompiler::Draft {
     const std::string& text;
     ExpressionKind kind;
     std::string resultType = "num";
-    std::vector<std::string> names;        ///< data of the routine that the text names, in order
+    std::vector<std::string> names = {};   ///< data of the routine that the text names, in order
     const sema::Module* module = nullptr;  ///< as it was checked
     const sema::Type* valueType = nullptr; ///< of the expression; null: not known
+    bool isMisread = false;                ///< a mistake of syntax
 
     bool isOrder() const { return kind == ExpressionKind::Orders; }
 };
@@ -136,9 +138,9 @@ std::string moduleText(const sema::CheckedProgram& program, const std::set<std::
     std::string out = fmt::format("MODULE {}\nLOCAL PROC {}({})\n", kModule, kRoutine, params);
     if (needsConstants) out += constants;
     if (isOrder)
-        out += text + "\n";
+        out += text + kAfterText;
     else
-        out += fmt::format("{} := \n{}\n;\n", kResult, text);
+        out += fmt::format("{} := \n{}{};\n", kResult, text, kAfterText);
     out += fmt::format("ERROR (LONG_JMP_ALL_ERR)\n{} := ERRNO;\nSkipWarn;\nRETURN;\nENDPROC\nENDMODULE\n",
                        kError);
     return out;
@@ -160,12 +162,22 @@ const syntax::Expr* valueOf(const syntax::RoutineDecl& routine) {
 }
 
 /// The first error in the text; the names that only this file knows do not help anybody.
-std::string problemOf(const std::vector<diag::Diagnostic>& diagnostics, const std::string& path) {
+const diag::Diagnostic* firstError(const std::vector<diag::Diagnostic>& diagnostics,
+                                   const std::string& path) {
     for (const diag::Diagnostic& diagnostic : diagnostics)
         if (diagnostic.severity == diag::Severity::Error && diagnostic.file &&
             diagnostic.file->path() == path)
-            return fmt::format("{} ({})", diagnostic.message, diag::codeName(diagnostic.code));
-    return "";
+            return &diagnostic;
+    return nullptr;
+}
+
+std::string problemOf(const std::vector<diag::Diagnostic>& diagnostics, const std::string& path) {
+    const diag::Diagnostic* error = firstError(diagnostics, path);
+    return error != nullptr ? fmt::format("{} ({})", error->message, diag::codeName(error->code)) : "";
+}
+
+bool isOfSyntax(const diag::Diagnostic& diagnostic) {
+    return static_cast<int>(diagnostic.code) / 1000 == 1;
 }
 
 /// Calls that an expression without consequences must not make: "" when there are none.
@@ -257,7 +269,13 @@ bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
                                         draft.isOrder(), draft.resultType, draft.names);
     session_->setGuest(kModule, draft.scope.module);
     session_->change(std::make_shared<const rapid::SourceFile>(pathOf(task), text));
-    problem = problemOf(session_->diagnostics(), pathOf(task));
+    const std::vector<diag::Diagnostic> diagnostics = session_->diagnostics();
+    problem = problemOf(diagnostics, pathOf(task));
+    const diag::Diagnostic* error = firstError(diagnostics, pathOf(task));
+    draft.isMisread = error != nullptr && isOfSyntax(*error);
+    if (draft.isMisread &&
+        error->range.begin >= text.rfind(kAfterText)) // finds what the user has not written
+        problem = fmt::format("'{}' is not complete", draft.text);
     draft.module = findModule(*session_->program().tasks[task], kModule);
     draft.valueType = nullptr;
     const syntax::RoutineDecl* routine = draft.module != nullptr ? onlyRoutine(*draft.module) : nullptr;
@@ -287,13 +305,20 @@ std::unique_ptr<CompiledExpression> ExpressionCompiler::make(const ExpressionSco
                                                              const std::string& text, ExpressionKind kind,
                                                              std::string& problem) {
     if (!session_) openSession();
-    Draft draft{scope, text, kind, "num", {}, nullptr, nullptr};
+    Draft draft{scope, text, kind};
     const bool fits = check(draft, problem);
     const bool otherType = draft.valueType != nullptr && !rt::sameName(draft.valueType->name, "num");
     if (otherType) {
         draft.resultType = draft.valueType->name;
         if (!check(draft, problem)) return nullptr;
     } else if (!fits) {
+        if (draft.isMisread && !draft.isOrder()) {
+            std::string ignored;
+            const std::string instruction = text + ";"; // a second one does no harm
+            Draft order{scope, instruction, ExpressionKind::Orders};
+            if (check(order, ignored))
+                problem = fmt::format("'{}' is an instruction: an expression is expected", text);
+        }
         return nullptr;
     }
     if (!judge(draft, problem)) return nullptr;

@@ -185,7 +185,7 @@ std::optional<Json> InspectionRequests::evaluate(const Request& request, const A
     const std::string text = arguments.text("expression");
     const std::string context = arguments.text("context", "watch");
     if (rt::trimmed(text).empty()) throw Refusal("the expression is empty");
-    if (!context_.program) throw Refusal("no program has been launched");
+    context_.requireProgram();
     (void)context_.debugger();
     const Site at = site(arguments);
     if (!context_.debugger().standsStill()) {

@@ -253,7 +253,7 @@ void Session::disconnect(const Request& request) {
 }
 
 Json Session::terminate(const Arguments&) {
-    if (!context_.program) throw Refusal("no program is being executed");
+    context_.requireProgram();
     if (!context_.running) { // launched, not started yet
         startWanted_ = false;
         dropProgram();
@@ -319,6 +319,7 @@ void Session::dropProgram() {
     context_.evaluator.reset();
     dialogs_.end();
     output_.reset();
+    context_.hasEnded = context_.hasEnded || context_.program != nullptr;
     context_.program.reset();
 }
 
