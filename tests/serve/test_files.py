@@ -82,6 +82,29 @@ class Files(ServeCase):
                 self.assertEqual(client.delete(folder).status, 204)
                 self.assertEqual(client.get(folder).status, 404)
 
+    def test_names_that_are_not_utf8(self):
+        """Lines 16, 20: answers are UTF-8 always, and 4xx says what is wrong. A new name is UTF-8; a file of an old backup with another
+        name can be read, replaced and removed, and its folder can be listed."""
+        old = os.path.join(self.home.encode(), b"caf\xe9.mod")
+        for client in self.both():
+            home = self.root(client)
+            with open(old, "wb") as file:
+                file.write(b"old")
+            for name in ("new%FF.txt", "a%C3%28.txt", "%ED%A0%80.txt"):
+                response = client.put(f"{home}/{name}", "one", headers={"Content-Type": "text/plain;v=2.0"})
+                self.assertEqual((response.status, "UTF-8" in response.body.decode()), (400, True))
+                self.assertEqual(client.get(f"{home}/{name}").status, 404)
+            self.assertEqual(self.act(client, home, "create", {"fs-newname": b"f\xff"}).status, 400)
+            self.assertEqual(self.act(client, f"{home}/caf%E9.mod", "copy", {"fs-newname": b"f\xff"}).status, 400)
+            self.assertEqual(self.act(client, f"{home}/caf%E9.mod", "rename", {"fs-newname": b"f\xff"}).status, 400)
+            backup = "/ctrl/backup?action=backup" if client.dialect == 1 else "/ctrl/backup/create"
+            self.assertEqual(client.post(backup, {"backup": b"/fileservice/$BACKUP/f\xff"}).status, 400)
+            self.assertIn(("fs-file", "caf?.mod"), self.names(client.get(home)))
+            self.assertEqual(client.get(f"{home}/caf%E9.mod").body, b"old")
+            self.assertEqual(client.put(f"{home}/caf%E9.mod", "two", headers={"Content-Type": "text/plain;v=2.0"}).status, 200)
+            self.assertEqual(client.delete(f"{home}/caf%E9.mod").status // 100, 2)
+            self.assertFalse(os.path.exists(old))
+
     def test_paging(self):
         """Line 24: at most 100 files on a page."""
         client = self.client(2)

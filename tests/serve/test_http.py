@@ -463,6 +463,10 @@ class Formats(ServeCase):
                 response = self.client(dialect, form=form).get("/rw/unknown")
                 self.assertEqual(response.status, 404)
                 self.assertEqual(response.code(), -1073414146)
+                response = self.client(dialect, form=form).request("PATCH", "/rw/system")  # refused before a resource is looked for
+                self.assertEqual(response.status, 501)
+                self.assertEqual(response.body.lstrip()[:1], b"<" if form == "xhtml" else b"{")
+                self.assertLess(response.code(), 0)
 
     def test_methods(self):
         for client in self.both():

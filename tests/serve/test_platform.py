@@ -206,11 +206,20 @@ class Platform(ServeCase):
             self.assertEqual(client.request("OPTIONS", "/rw/nowhere").status, 404)
 
     def test_every_return_code_is_listed(self):
+        """Documentation of RWS 1.0, librws: li err-desc-li in the list, li err-desc for one code."""
         for client in self.both():
-            codes = {entry.values["code"]: entry.values["name"] for entry in client.get("/rw/retcode").entries("err-desc")}
+            codes = {entry.values["code"]: entry.values["name"] for entry in client.get("/rw/retcode").entries("err-desc-li")}
             self.assertEqual(codes["-1073445862"], "SYS_CTRL_E_RESOURCE_HELD")
             self.assertEqual(codes["-1073442816"], "SYS_CTRL_E_NO_SUCH_SYMBOL")
             self.assertEqual(codes["-1073445859"], "SYS_CTRL_E_MASTER_REJECT")
+            one = client.get("/rw/retcode?code=-1073445859").values("err-desc")
+            self.assertEqual(one["name"], codes["-1073445859"])
+
+    def test_language_is_an_environment_variable(self):
+        """Clients of 2.5, A8 (App SDK): pages for a pendant ask for $LANGUAGE before they show anything."""
+        for client, member in zip(self.both(), ("_value", "value")):
+            self.assertEqual(client.get("/ctrl/%24LANGUAGE").values("ctrl-env")[member], "en")
+            self.assertEqual(client.get("/ctrl/$NOWHERE").status, 404)
 
     def test_virtual_time_counts_cycles(self):
         for client in self.both():

@@ -411,6 +411,32 @@ class Modules(RapidCase):
             self.assertEqual(client.get(read).values()["module-text"], MODULE)
             self.assertEqual(client.post(write, {**form, "startrow": "99"}).status, 400)
 
+    def test_loaded_modules_stay(self):
+        """Program memory outlives a change of another module and a warm restart (issue 20, section 1: warm, cold), with values of persistents;
+        only an unload, another program or a cold restart takes a module away."""
+        for client in self.masters():
+            self.assertEqual(client.act(TASK, "loadmod", {"modulepath": "$HOME/Extra.mod"}).status, 204)
+            symbol = data(client.dialect, "T_ROB1/Extra/saved")
+            form = symbol + ("?action=set" if client.dialect == 1 else "")
+            self.assertEqual(client.post(form, {"value": "7"}).status, 204)
+            write = self.path(client, "M") + ("&action=set-module-text" if client.dialect == 1 else "/text")
+            self.assertEqual(client.post(write, {"task": "T_ROB1", "text": MODULE + "! changed\n"}).status, 204)
+            self.eventually(lambda: "changed" in self.text(client, "M"))
+            self.assertIn("Extra", self.names(client))
+            self.assertEqual(self.value("T_ROB1/Extra/saved"), "7")
+            restart = "/rw/panel?action=restart" if client.dialect == 1 else "/ctrl/restart"
+            self.assertEqual(client.post(restart, {"restart-mode": "restart"}).status, 204)
+            client = self.master(client.dialect)
+            self.eventually(lambda: "Extra" in self.names(client))
+            self.assertEqual(client.get(symbol).values("rap-data")["value"], "7")
+            self.assertEqual(self.text(client, "Extra"), EXTRA)
+            self.assertEqual(client.act(TASK, "unloadmod", {"module": "Extra"}).status, 204)
+            self.assertNotIn("Extra", self.names(client))
+            self.assertEqual(client.post(write, {"task": "T_ROB1", "text": MODULE}).status, 204)
+
+    def text(self, client, module):
+        return client.get(self.path(client, module) + ("&resource=module-text" if client.dialect == 1 else "/text")).values()["module-text"]
+
     def test_programs(self):
         """2.3: program load progpath loadmode, save; 22: rap-program: name entrypoint."""
         for client in self.masters():

@@ -1,6 +1,7 @@
 #include "tools/rws/backups.h"
 
 #include "frontend/project/backup.h"
+#include "frontend/source/source_file.h"
 #include "tools/rws/file_service.h"
 #include "tools/rws/rapid_support.h"
 #include "tools/rws/request_values.h"
@@ -38,6 +39,7 @@ std::optional<Reply> Backups::folderIn(const Request& request, bool exists, std:
         path.pop_back();
     if (path.empty() || path.find('/') == std::string::npos)
         return badParameter("backup", "/fileservice/$BACKUP/name");
+    if (!exists && !rapid::isValidUtf8(path)) return badParameter("backup", "a name in UTF-8");
     if (const service::FileResult found = volumes_.hostPath(path, host); !found.isDone())
         return refuseFile(found);
     std::error_code code;

@@ -132,6 +132,15 @@ http::Decision FrontDoor::decide(Dialect dialect, const http::Head& head) {
     return decision;
 }
 
+/// None: RWS 2.0 has no form that the client accepts.
+std::optional<Form> FrontDoor::askedForm(Dialect dialect, const http::Head& head, const Visit& visit) {
+    if (dialect == Dialect::V2) return acceptedForm(head.header("accept"), visit.path);
+    const auto json = std::find_if(visit.query.begin(), visit.query.end(), [](const auto& field) {
+        return rapid::config::sameName(field.first, "json");
+    });
+    return json != visit.query.end() && json->second == "1" ? Form::Json : Form::Xhtml;
+}
+
 /// The response that ends a request before its body; none: it may continue.
 std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head& head, Visit& visit) {
     const RenderContext plain = contextOf(dialect, head, "/");
@@ -153,17 +162,11 @@ std::optional<http::Response> FrontDoor::admit(Dialect dialect, const http::Head
     if (changes && !http::hasOwnOrigin(head))
         return refuse(403, "pages of other servers may not change anything here");
     const bool asksForMethods = head.method == "OPTIONS";
+    // Chosen before anything is refused, so that an error has the form that the client reads.
+    visit.form = askedForm(dialect, head, visit);
     if (!asksForMethods && !methodOf(head.method)) return refuse(501, "the method is not supported");
     if (auto response = logOn(dialect, head, visit)) return response;
-    if (dialect == Dialect::V1) {
-        const auto json = std::find_if(visit.query.begin(), visit.query.end(), [](const auto& field) {
-            return rapid::config::sameName(field.first, "json");
-        });
-        visit.form = json != visit.query.end() && json->second == "1" ? Form::Json : Form::Xhtml;
-        return std::nullopt;
-    }
-    if (head.asksForSocket() || asksForMethods) return std::nullopt;
-    visit.form = acceptedForm(head.header("accept"), visit.path);
+    if (dialect == Dialect::V1 || head.asksForSocket() || asksForMethods) return std::nullopt;
     if (visit.form == Form::Xhtml && asksForNewestMessages(visit.path, visit.query))
         visit.form = Form::TypedXhtml;
     // The App SDK leaves it to the browser for requests that change something.
@@ -196,8 +199,8 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
                                      ? accounts_.checkDigest(authorization, head.method, head.target, stale)
                                      : accounts_.checkBasic(authorization, isBusy);
         if (isBusy)
-            return errorResponse(503, "too many wrong passwords at a time: try again", Form::Xhtml,
-                                 contextOf(dialect, head, visit.path));
+            return errorResponse(503, "too many wrong passwords at a time: try again",
+                                 visit.form.value_or(Form::Xhtml), contextOf(dialect, head, visit.path));
         if (user.empty()) return challenge(dialect, stale);
         // Clients of one process may share a connection: one that keeps cookies logs on for itself.
         const std::string proof =
@@ -209,7 +212,7 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
         if (session == nullptr) {
             session = sessions_.logOn(dialect, user, head.peer, head.connection, proof, restarts_);
             if (session == nullptr)
-                return errorResponse(503, "too many sessions: log one off", Form::Xhtml,
+                return errorResponse(503, "too many sessions: log one off", visit.form.value_or(Form::Xhtml),
                                      contextOf(dialect, head, visit.path));
             if (settings_.sessionBegan) settings_.sessionBegan(session->session);
         }
@@ -222,7 +225,7 @@ std::optional<http::Response> FrontDoor::logOn(Dialect dialect, const http::Head
                                    fmt::format("{}={}; path=/; httponly", kContextCookie, session->abbcx));
     }
     if (!Sessions::countRequest(*session))
-        return errorResponse(503, "too many requests within a second", Form::Xhtml,
+        return errorResponse(503, "too many requests within a second", visit.form.value_or(Form::Xhtml),
                              contextOf(dialect, head, visit.path));
     visit.session = session->session;
     return std::nullopt;

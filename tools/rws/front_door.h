@@ -74,6 +74,7 @@ class FrontDoor {
         http::FieldList cookies;  ///< headers that set them
     };
     http::Decision decide(Dialect dialect, const http::Head& head);
+    static std::optional<Form> askedForm(Dialect dialect, const http::Head& head, const Visit& visit);
     std::optional<http::Response> admit(Dialect dialect, const http::Head& head, Visit& visit);
     std::optional<http::Response> logOn(Dialect dialect, const http::Head& head, Visit& visit);
     void handle(Dialect dialect, http::Request& request, const http::Respond& respond);

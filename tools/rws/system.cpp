@@ -107,7 +107,7 @@ void describeCode(const ReturnCodeText& text, Entry& entry) {
 Reply allReturnCodes() {
     Document document;
     for (const ReturnCodeText& text : returnCodes())
-        describeCode(text, document.add("err-desc", fmt::format("{}", static_cast<int>(text.code))));
+        describeCode(text, document.add("err-desc-li", fmt::format("{}", static_cast<int>(text.code))));
     return Reply::of(std::move(document));
 }
 
@@ -216,14 +216,16 @@ Reply System::restart(const Request& request) {
     return badParameter("restart-mode", "restart, istart, pstart, bstart or xstart");
 }
 
-/// `_value` (RWS 2.0: `value`): a path after /fileservice/.
+/// `_value` (RWS 2.0: `value`): a path after /fileservice/, of $LANGUAGE the language of the event log.
 Reply System::environment(const Request& request) const {
     const std::string name = request.parameter("name");
+    const char* const value = request.dialect == Dialect::V1 ? "_value" : "value";
+    if (sameName(name, "$LANGUAGE")) return oneValue("ctrl-env", "$LANGUAGE", value, "en");
     if (!name.starts_with('$') || !volumes_.has(name))
         return Reply::refuse(ReturnCode::NotFound,
                              fmt::format("there is no resource or environment variable {}", name));
     const std::string title = "$" + rapid::config::upperCase(name.substr(1));
-    return oneValue("ctrl-env", title.c_str(), request.dialect == Dialect::V1 ? "_value" : "value", title);
+    return oneValue("ctrl-env", title.c_str(), value, title);
 }
 
 void System::addControl(Router& router) {

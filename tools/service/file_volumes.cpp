@@ -2,6 +2,7 @@
 
 #include "config/letter_case.h"
 #include "config/temporary.h"
+#include "frontend/source/source_file.h"
 #include "stdlib/impl/files/placed_file.h"
 #include "tools/service/folder_work.h"
 
@@ -38,15 +39,22 @@ std::pair<std::string, std::string> split(const std::string& path) {
     return {path.substr(begin, slash - begin), path.substr(std::min(slash + 1, path.size()))};
 }
 
-/// A name for a new entry of a folder.
+/// A name of an entry of a folder.
 bool isBareName(std::string_view name) {
     return !name.empty() && name.size() <= 255 && name != "." && name != ".." &&
            name.find_first_of("/\\") == std::string_view::npos &&
            std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
+/// A name for a new entry: in UTF-8, as replies can show it. Entries with other names, such as those of old backups, can be read,
+/// replaced and removed.
+bool isNewName(std::string_view name) {
+    return isBareName(name) && rapid::isValidUtf8(name);
+}
+
 FileResult badName(const std::string& name) {
-    return {FileProblem::Outside, fmt::format("'{}' is not a name for a file or folder", name)};
+    const char* const why = rapid::isValidUtf8(name) ? "a name for a file or folder" : "a name in UTF-8";
+    return {FileProblem::Outside, fmt::format("'{}' is not {}", name, why)};
 }
 
 FileEntry entryOf(const std::string& name, const struct stat& status) {
@@ -66,7 +74,7 @@ bool statusOf(const VolumePlace& place, struct stat& status) {
 } // namespace
 
 bool isPlainFileName(std::string_view name) {
-    return isBareName(name) && name.size() <= 80 && name.front() != '.' &&
+    return isNewName(name) && name.size() <= 80 && name.front() != '.' &&
            name.find_first_of(":$") == std::string_view::npos;
 }
 
@@ -184,6 +192,7 @@ FileResult FileVolumes::write(const std::string& path, std::string_view bytes, b
     if (FileResult found = locate(path, LastLink::Follow, place); !found.isDone()) return found;
     if (place.name != "." && !isBareName(place.name)) return badName(place.name);
     isNew = !statusOf(place, status);
+    if (isNew && !isNewName(place.name)) return badName(place.name);
     if (place.name == "." || (!isNew && !S_ISREG(status.st_mode)))
         return {FileProblem::Refused, fmt::format("{} is not a file", path)};
     if (!isNew && (status.st_mode & S_IWUSR) == 0)
@@ -200,7 +209,7 @@ FileResult FileVolumes::write(const std::string& path, std::string_view bytes, b
 }
 
 FileResult FileVolumes::makeFolder(const std::string& parent, const std::string& name) const {
-    if (!isBareName(name)) return badName(name);
+    if (!isNewName(name)) return badName(name);
     VolumePlace place;
     if (FileResult found = locate(parent + "/" + name, LastLink::Keep, place); !found.isDone()) return found;
     if (::mkdirat(place.folder.number(), place.name.c_str(), 0777) == 0) return done();
@@ -220,7 +229,7 @@ FileResult FileVolumes::remove(const std::string& path) const {
 }
 
 FileResult FileVolumes::rename(const std::string& path, const std::string& name) const {
-    if (!isBareName(name)) return badName(name);
+    if (!isNewName(name)) return badName(name);
     VolumePlace place;
     struct stat status{};
     if (FileResult found = locate(path, LastLink::Keep, place); !found.isDone()) return found;
@@ -234,7 +243,7 @@ FileResult FileVolumes::rename(const std::string& path, const std::string& name)
 }
 
 FileResult FileVolumes::copy(const std::string& path, const std::string& name, bool overwrite) const {
-    if (!isBareName(name)) return badName(name);
+    if (!isNewName(name)) return badName(name);
     VolumePlace place;
     struct stat status{};
     if (FileResult found = locate(path, LastLink::Follow, place); !found.isDone()) return found;

@@ -127,6 +127,8 @@ rt::ExitStatus VirtualController::makeCore(const Succession& how) {
     if (const rt::ExitStatus status = core_->prepare(program_->description());
         status != rt::ExitStatus::Ended)
         return status;
+    for (const CarriedModule& module : how.modules)
+        bringBack(module);
     bool& areKept = core_->service<rt::SystemOrdersSlot>().valuesAreKept;
     areKept = true; // values that stay give no orders
     for (const auto& [name, value] : how.signals)
@@ -270,6 +272,7 @@ Refusal VirtualController::restart(RestartMode mode) {
     if (mode == RestartMode::Warm) {
         rt::lib::MessageQueues::of(*core_).emptyAll();
         next->state = core_->captureState();
+        next->modules = loadedModules();
     }
     panel_.motors = next->motorsOn ? MotorState::On : MotorState::Off;
     emergencyStop_ = safeguardOpen_ = false;

@@ -162,16 +162,27 @@ class VirtualController {
 
   private:
     /// Replacement of the present controller.
+    /// A module that is in memory beside the compiled program, and what its data hold.
+    struct CarriedModule {
+        std::string task;
+        rt::LoadRequest request;
+        bool dynamic = false, isSystem = false;
+        int64_t fileTime = -1;
+        std::map<std::string, std::string> persistents, variables; ///< by name, as images
+    };
     struct Succession {
         std::unique_ptr<LoadedProgram> program; ///< null: the same
         std::string state;                      ///< "" = everything begins again
         std::map<std::string, double> signals;  ///< values that stay
+        std::vector<CarriedModule> modules;     ///< that come into memory again
         bool powerOn = true;
         bool programStart = false, motorsOn = false;
     };
     std::unique_ptr<LoadedProgram> compile(const ModuleEdits& edits, std::string& problems,
                                            rt::ExitStatus& status);
     rt::ExitStatus makeCore(const Succession& how);
+    std::vector<CarriedModule> loadedModules() const;
+    void bringBack(const CarriedModule& module);
     void observe();
     void look();
     void execute(std::function<void()> command);

@@ -6,6 +6,7 @@
 #include "config/read_file.h"
 #include "frontend/syntax/parser.h"
 #include "runtime/base/text_util.h"
+#include "runtime/debug/call_chain.h"
 #include "runtime/host/module_units.h"
 #include "tools/program/program_sources.h"
 #include "tools/service/virtual_controller.h"
@@ -76,6 +77,7 @@ Refusal VirtualController::replaceProgram(ModuleEdits edits, const rt::Task& tas
     noteModules(task, what);
     if (release_) release_();
     next->state = core_->captureState();
+    next->modules = loadedModules();
     next->powerOn = false;
     next->motorsOn = core_->motorsOn();
     for (rt::SignalId id = 0; id < static_cast<rt::SignalId>(core_->io().size()); ++id)
@@ -83,6 +85,62 @@ Refusal VirtualController::replaceProgram(ModuleEdits edits, const rt::Task& tas
     succession_ = std::move(next);
     core_->endRun();
     return {};
+}
+
+/// The modules of Load and of clients, in the order in which they came.
+std::vector<VirtualController::CarriedModule> VirtualController::loadedModules() const {
+    std::vector<CarriedModule> modules;
+    const auto& keepers = core_->service<rt::StateKeepers>();
+    for (const rt::LoadedModule& present : core_->tables().modules()) {
+        if (present.unit == nullptr || present.task < 0) continue;
+        const rt::Task& task = *core_->tasks()[static_cast<std::size_t>(present.task)];
+        CarriedModule module{task.name(),
+                             {task.name(), present.task, present.file, present.name, {}},
+                             present.dynamic,
+                             false,
+                             present.fileTime,
+                             {},
+                             {}};
+        if (!moduleText(task, present.name, module.request.bytes)) continue;
+        for (const ModuleHead& head : headsOf(rapid::SourceFile(present.file, module.request.bytes)))
+            module.isSystem = head.isSystem;
+        for (uint32_t i = 0; i < present.unit->globalCount; ++i) {
+            const rt::GlobalDesc& data = present.unit->globals[i];
+            if (data.kind != rt::kGlobalPersistent && data.kind != rt::kGlobalVariable) continue;
+            std::string value;
+            if (rt::valueToImage(data.address, *data.type, 1, keepers, value))
+                (data.kind == rt::kGlobalPersistent ? module.persistents : module.variables)[data.name] =
+                    std::move(value);
+        }
+        modules.push_back(std::move(module));
+    }
+    return modules;
+}
+
+/// Persistents keep their values; variables do so where the program continues, as those of the compiled program.
+void VirtualController::bringBack(const CarriedModule& module) {
+    rt::Task* task = core_->findTask(module.task);
+    if (task == nullptr) return;
+    rt::LoadRequest request = module.request;
+    request.taskIndex = static_cast<int32_t>(task->index());
+    const rt::LoadResult result =
+        rt::linkUnit(*core_, *rt::units(*core_).loader, request, module.dynamic, module.fileTime);
+    if (result.verdict != rt::LoadResult::Verdict::Made) {
+        noteModules(*task, fmt::format("module {} is no longer in memory: {}", request.shown,
+                                       result.verdict == rt::LoadResult::Verdict::Loaded
+                                           ? "the program has a module of this name"
+                                           : result.problems));
+        return;
+    }
+    const auto& keepers = core_->service<rt::StateKeepers>();
+    for (uint32_t i = 0; i < result.unit->globalCount; ++i) {
+        const rt::GlobalDesc& data = result.unit->globals[i];
+        const bool isVariable = data.kind == rt::kGlobalVariable;
+        if (isVariable && !task->isReentering()) continue;
+        const auto& values = isVariable ? module.variables : module.persistents;
+        if (const auto found = values.find(data.name); found != values.end())
+            (void)rt::imageToValue(found->second, data.address, *data.type, 1, keepers);
+    }
 }
 
 void VirtualController::noteModules(const rt::Task& task, const std::string& what) {
@@ -198,6 +256,9 @@ Refusal VirtualController::loadProgram(rt::Task& task, const std::vector<std::st
     }
     if (Refusal refusal = replaceProgram(std::move(edits), task, what); !refusal.empty()) return refusal;
     succession_->state.clear();
+    std::erase_if(succession_->modules, [&](const CarriedModule& module) {
+        return replace && !module.isSystem && module.task == task.name();
+    });
     return {};
 }
 
