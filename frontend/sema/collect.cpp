@@ -7,6 +7,17 @@ namespace rapid::sema {
 
 using namespace syntax;
 
+namespace {
+
+/// RobotStudio writes the modules of each task into a folder of its name: given as one program, they are twins.
+std::string remedyOfTwins(const SourceFile& one, const SourceFile& other) {
+    const auto folderOf = [](const std::string& path) { return path.substr(0, path.rfind('/') + 1); };
+    if (folderOf(one.path()) == folderOf(other.path())) return {};
+    return ": if each folder is the program of a task, give --task=NAME=FOLDER for each";
+}
+
+} // namespace
+
 Collector::Collector(State& state) : CheckerPart(state) {}
 
 Module* Collector::addModule(const SyntaxTree& tree, const ModuleDecl& decl, bool predefined,
@@ -146,7 +157,8 @@ void Collector::declareModules(std::span<Module* const> modules) {
         duplicateModule_ = other != nullptr;
         if (other) {
             task_.dependsOnOrder = true;
-            auto& d = report(say::DuplicateModule, range(module->decl->name), {module->name});
+            auto& d = report(say::DuplicateModule, range(module->decl->name),
+                             {module->name, remedyOfTwins(*other->tree->source, *module->tree->source)});
             d.notes.push_back({other->tree->source, other->tree->range(other->decl->name),
                                "'" + other->name + "' is declared here"});
         } else if (!module->name.empty()) {
