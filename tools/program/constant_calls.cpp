@@ -40,7 +40,8 @@ void give(const ConstValue& from, Value& to) {
     if (float* number = std::get_if<float>(&to)) *number = static_cast<float>(from.number);
     if (double* number = std::get_if<double>(&to)) *number = from.number;
     if (bool* truth = std::get_if<bool>(&to)) *truth = from.boolean;
-    if (rt::String* text = std::get_if<rt::String>(&to)) text->assign(from.text());
+    rt::String* text = std::get_if<rt::String>(&to);
+    if (text && !from.text().empty()) text->assign(from.text()); // an empty one may have no bytes at all
 }
 
 void* addressOf(Value& value) {
