@@ -124,8 +124,13 @@ def frames_of(data):
         at += head + size
 
 
+def value_in(text):
+    return float(text.split(b'class="lvalue">')[1].split(b"<")[0])
+
+
 def events(server, seconds):
-    """Ten clients subscribe to all signals with middle priority: how many events each gets, and whether they are in order."""
+    """Ten clients subscribe to all signals with middle priority, which merges the changes of 200 ms: how many events each gets,
+    whether they are in order, and whether the last value of each signal came."""
     clients = [RwsClient(server.addresses["http"], 1) for _ in range(10)]
     names = [f"/rw/iosystem/signals/s{i};state" for i in range(SIGNALS)]
     begin = time.monotonic()
@@ -137,37 +142,52 @@ def events(server, seconds):
     def read(number):
         while time.monotonic() < end:
             received[number] += sockets[number].raw.socket.recv(1 << 20)
+        stopped.wait()
+        sockets[number].raw.socket.settimeout(1)  # five times what the last changes may take
+        try:
+            while more := sockets[number].raw.socket.recv(1 << 20):
+                received[number] += more
+        except TimeoutError:
+            pass
+
+    stopped = threading.Event()
 
     before, memory, start = seconds_of(server.process), memory_of(server.process), time.monotonic()
     threads = [threading.Thread(target=read, args=(i,)) for i in range(10)]
     for thread in threads:
         thread.start()
-    for thread in threads:
-        thread.join()
+    time.sleep(end - time.monotonic())
     needed = time.monotonic() - start
     used = seconds_of(server.process) - before
-    counts, disorder = [], 0
+    assert clients[0].post("/rw/rapid/execution?action=stop", {"stopmode": "stop"}).status in (200, 204)
+    stopped.set()
+    for thread in threads:
+        thread.join()
+    values = [value_in(clients[number % 10].get(f"/rw/iosystem/signals/s{number}").body) for number in range(SIGNALS)]
+    counts, disorder, missing = [], 0, 0
     for data in received:
         last, count = {}, 0
         for text in frames_of(bytes(data)):
-            name = text.split(b'rel="self"')[0].rsplit(b'href="', 1)[1]
-            value = float(text.split(b'class="lvalue">')[1].split(b"<")[0])
+            name = text.split(b'" rel="self"')[0].rsplit(b'href="', 1)[1]
+            value = value_in(text)
             disorder += value < last.get(name, 0)
             last[name] = value
             count += 1
         counts.append(count)
+        missing += sum(last.get(f"/rw/iosystem/signals/s{i};state".encode()) != value for i, value in enumerate(values))
+    print(f"signals: {max(values) / (time.monotonic() - begin):.0f} changes/s each, {missing} last values did not come")
     print(f"events: {sum(counts) / needed:.0f}/s in all, {min(counts)} to {max(counts)} for a client, {disorder} out of order; "
           f"processor {used / needed:.0%}, memory {memory} -> {memory_of(server.process)} KiB")
 
 
-def serve(module, cfg, run):
+def serve(module, cfg, run, options=()):
     folder = tempfile.mkdtemp()
     try:
         for name, text in (("MainModule.modx", module), ("EIO.cfg", cfg)):
             if text:
                 with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                     file.write(text)
-        server = Serve(folder)
+        server = Serve(folder, options=options)
         before, begin = seconds_of(server.process), time.monotonic()
         time.sleep(3)
         print(f"no clients: processor {(seconds_of(server.process) - before) / (time.monotonic() - begin):.0%}")
@@ -180,7 +200,7 @@ def serve(module, cfg, run):
 def main():
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 20
     serve(MODULE, None, lambda server: (requests(server, seconds), throughput(server)))
-    serve(CHANGES, EIO, lambda server: events(server, min(seconds, 10)))
+    serve(CHANGES, EIO, lambda server: events(server, min(seconds, 10)), ["--rate=unlimited"])
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ int main(void) {
         seed = (seed * 137 + 29) % 30011;
         table[i] = (float)(seed % 100);
     }
-    for (int n = 1; n <= 2000000; n++) {
+    for (int n = 1; n <= 10000000; n++) {
         check = (check + digit_sum(n) + common_divisor(n, 360)) % 99991;
         if (n % 8 == 0) check = (check + (int)walked(n % 50 + 1, n % 5 + 3)) % 99991;
     }

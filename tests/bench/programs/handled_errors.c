@@ -39,7 +39,7 @@ static float cycle(int n) {
 
 int main(void) {
     float good = 0;
-    for (int n = 1; n <= 8000000; n++)
+    for (int n = 1; n <= 16000000; n++)
         good = (float)((int)(good + cycle(n)) % 99991);
     printf("good %.0f retries %.0f\nskips %.0f fails %.0f\n", good, retries, skips, fails);
     return 0;

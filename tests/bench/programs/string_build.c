@@ -73,7 +73,7 @@ int main(void) {
     static const char* const ends[5] = {"A", "B", "C", "X", "Z"};
     text name, plain = {0}, mirror = {0}, piece, other, previous = text_of("flange"), batch = text_of("K0");
     int length = 0, repeated = 0, special = 0;
-    for (int n = 1; n <= 1600000; n++) {
+    for (int n = 1; n <= 4800000; n++) {
         name = text_of(parts[n * 3 % count]);
         label(&plain, &name, suppliers[n * 2 % 5], &batch);
         map(&plain, " /&", "_-+");
