@@ -22,7 +22,7 @@ inline data::Orient toOrient(const robot::Quat& q) {
     return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
             static_cast<float>(q.z)};
 }
-/// By how much the square of the length differs from 1. It is never exactly 0 in binary32.
+/// By how much the square of the length differs from 1: rounding to binary32 rarely leaves 0.
 inline double lengthExcess(const robot::Quat& q) {
     return dot(q, q) - 1;
 }
