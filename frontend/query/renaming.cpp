@@ -5,9 +5,10 @@
 #include "frontend/query/shared_types.h"
 #include "frontend/sema/names.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace rapid::query {
 
@@ -76,10 +77,10 @@ RenameResult renameAt(const Snapshot& snapshot, const FileView& file, uint32_t o
     result.problem = edit::newNameProblem(newName, snapshot.program(), meaning.record != nullptr);
     if (!result.problem.empty() || target.name == newName) return result;
     std::vector<Use> uses;
+    std::set<std::pair<std::string, uint32_t>> known; // places
     for (const Meaning& alike : alikeInAllTasks(snapshot, meaning))
         for (Use& use : usesOf(snapshot, alike, true, cancel))
-            if (std::none_of(uses.begin(), uses.end(),
-                             [&](const Use& known) { return known.place == use.place; }))
+            if (known.emplace(use.place.file->path(), use.place.range.begin).second)
                 uses.push_back(std::move(use));
     result.files = editsOf(uses, newName);
     if (isCancelled(cancel)) return {};

@@ -117,5 +117,12 @@ inline double atan2Deg(double y, double x) {
     atan2Deg(ys, xs, degrees);
     return degrees[0];
 }
+/// Arc sine and arc cosine in degrees, |value| <= 1.
+inline double asinDeg(double value) {
+    return atan2Deg(value, std::sqrt((1 - value) * (1 + value)));
+}
+inline double acosDeg(double value) {
+    return atan2Deg(std::sqrt((1 - value) * (1 + value)), value);
+}
 
 } // namespace robot::trig

@@ -61,7 +61,9 @@ Quat turnedBy(const Quat& base, const Vec3& rotation, double share) {
 }
 
 Quat fromEulerZyx(double zDeg, double yDeg, double xDeg) {
-    return fromHalvesZyx(halfOf(zDeg), halfOf(yDeg), halfOf(xDeg));
+    const HalfAngle z = halfOf(zDeg);
+    if (yDeg == 0 && xDeg == 0) return {z.cosine, 0, 0, z.sine}; // as that of a joint
+    return fromHalvesZyx(z, halfOf(yDeg), halfOf(xDeg));
 }
 
 Vec3 eulerZyx(const Quat& q) {
@@ -75,8 +77,7 @@ double eulerX(const Quat& q) {
 
 double eulerY(const Quat& q) {
     const double sine = sineOfY(q);
-    return isUpright(sine) ? std::copysign(90.0, sine)
-                           : trig::atan2Deg(sine, std::sqrt((1 - sine) * (1 + sine)));
+    return isUpright(sine) ? std::copysign(90.0, sine) : trig::asinDeg(sine);
 }
 
 double eulerZ(const Quat& q) {

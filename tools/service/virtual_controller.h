@@ -161,7 +161,6 @@ class VirtualController {
     const CycleCount& cycles() const { return cycles_; }
 
   private:
-    /// Replacement of the present controller.
     /// A module that is in memory beside the compiled program, and what its data hold.
     struct CarriedModule {
         std::string task;
@@ -170,6 +169,7 @@ class VirtualController {
         int64_t fileTime = -1;
         std::map<std::string, std::string> persistents, variables; ///< by name, as images
     };
+    /// Replacement of the present controller.
     struct Succession {
         std::unique_ptr<LoadedProgram> program; ///< null: the same
         std::string state;                      ///< "" = everything begins again

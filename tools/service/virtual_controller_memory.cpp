@@ -126,7 +126,7 @@ void VirtualController::bringBack(const CarriedModule& module) {
     const rt::LoadResult result =
         rt::linkUnit(*core_, *rt::units(*core_).loader, request, module.dynamic, module.fileTime);
     if (result.verdict != rt::LoadResult::Verdict::Made) {
-        noteModules(*task, fmt::format("module {} is no longer in memory: {}", request.shown,
+        noteModules(*task, fmt::format("module {} cannot be loaded again: {}", request.shown,
                                        result.verdict == rt::LoadResult::Verdict::Loaded
                                            ? "the program has a module of this name"
                                            : result.problems));

@@ -1,6 +1,5 @@
 // Manual 1.15 and 1.8: orientations, coordinate systems and vectors.
 
-#include "runtime/robot/fast_trig.h"
 #include "stdlib/impl/math/convert.h"
 #include "stdlib/impl/support/fail.h"
 #include "stdlib/impl/support/finite.h"
@@ -77,15 +76,7 @@ RAPIDC_INLINED Status rt_EulerZYX(TaskCore* task, float* result, bool X, bool Y,
 }
 
 Status rt_OrientZYX(TaskCore*, data::Orient* result, float ZAngle, float YAngle, float XAngle) {
-    // By half angles: exact for multiples of 90 degrees.
-    const auto half = [](float angle) {
-        const robot::trig::SineCosine both = robot::trig::sinCosDeg(angle / 2.0);
-        return robot::HalfAngle{both.cosine, both.sine};
-    };
-    const robot::HalfAngle z = half(ZAngle);
-    const bool isOneTurn = YAngle == 0 && XAngle == 0; // as that of a joint
-    *result = toOrient(isOneTurn ? robot::Quat{z.cosine, 0, 0, z.sine}
-                                 : robot::fromHalvesZyx(z, half(YAngle), half(XAngle)));
+    *result = toOrient(robot::fromEulerZyx(ZAngle, YAngle, XAngle));
     return kOk;
 }
 

@@ -33,30 +33,12 @@ double tanDeg(double degrees) {
     return cosine == 0 ? std::copysign(kTangentPole, sine) : sine / cosine;
 }
 
-double asinDeg(double value) {
-    return std::asin(value) / robot::kDeg;
-}
-double acosDeg(double value) {
-    return std::acos(value) / robot::kDeg;
-}
-double atanDeg(double value) {
-    return std::atan(value) / robot::kDeg;
-}
-double atan2Deg(double y, double x) {
-    return std::atan2(y, x) / robot::kDeg;
-}
-
 } // namespace rt::lib
 
 namespace {
 
 bool outsideOne(double value) {
     return !(std::fabs(value) <= 1.0);
-}
-
-/// The other leg of the triangle whose hypotenuse is 1.
-double otherLeg(double leg) {
-    return std::sqrt((1 - leg) * (1 + leg));
 }
 
 Status badArc(TaskCore* task) {
@@ -90,33 +72,33 @@ float rt_ATan(float Value) {
     return static_cast<float>(robot::trig::atan2Deg(Value, 1));
 }
 double rt_ATanDnum(double Value) {
-    return lib::atanDeg(Value);
+    return std::atan(Value) / robot::kDeg;
 }
 float rt_ATan2(float Y, float X) {
     return static_cast<float>(robot::trig::atan2Deg(Y, X));
 }
 double rt_ATan2Dnum(double Y, double X) {
-    return lib::atan2Deg(Y, X);
+    return std::atan2(Y, X) / robot::kDeg;
 }
 
 Status rt_ASin(TaskCore* task, float* result, float Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = static_cast<float>(robot::trig::atan2Deg(Value, otherLeg(Value)));
+    *result = static_cast<float>(robot::trig::asinDeg(Value));
     return kOk;
 }
 Status rt_ASinDnum(TaskCore* task, double* result, double Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = lib::asinDeg(Value);
+    *result = std::asin(Value) / robot::kDeg;
     return kOk;
 }
 Status rt_ACos(TaskCore* task, float* result, float Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = static_cast<float>(robot::trig::atan2Deg(otherLeg(Value), Value));
+    *result = static_cast<float>(robot::trig::acosDeg(Value));
     return kOk;
 }
 Status rt_ACosDnum(TaskCore* task, double* result, double Value) {
     if (outsideOne(Value)) return badArc(task);
-    *result = lib::acosDeg(Value);
+    *result = std::acos(Value) / robot::kDeg;
     return kOk;
 }
 }

@@ -171,8 +171,7 @@ const diag::Diagnostic* firstError(const std::vector<diag::Diagnostic>& diagnost
     return nullptr;
 }
 
-std::string problemOf(const std::vector<diag::Diagnostic>& diagnostics, const std::string& path) {
-    const diag::Diagnostic* error = firstError(diagnostics, path);
+std::string problemOf(const diag::Diagnostic* error) {
     return error != nullptr ? fmt::format("{} ({})", error->message, diag::codeName(error->code)) : "";
 }
 
@@ -270,8 +269,8 @@ bool ExpressionCompiler::check(Draft& draft, std::string& problem) {
     session_->setGuest(kModule, draft.scope.module);
     session_->change(std::make_shared<const rapid::SourceFile>(pathOf(task), text));
     const std::vector<diag::Diagnostic> diagnostics = session_->diagnostics();
-    problem = problemOf(diagnostics, pathOf(task));
     const diag::Diagnostic* error = firstError(diagnostics, pathOf(task));
+    problem = problemOf(error);
     draft.isMisread = error != nullptr && isOfSyntax(*error);
     if (draft.isMisread &&
         error->range.begin >= text.rfind(kAfterText)) // finds what the user has not written
@@ -344,7 +343,7 @@ bool ExpressionCompiler::generate(const Draft& draft, CompiledExpression& out, s
     if (!rapid::lower::lowerUnit(session_->program(), static_cast<uint32_t>(draft.scope.task), *draft.module,
                                  unit, sink, made) ||
         !runIrPasses(made, {.profile = ir::Profile::Release}, sink)) {
-        problem = problemOf(sink.sorted(), draft.module->tree->source->path());
+        problem = problemOf(firstError(sink.sorted(), draft.module->tree->source->path()));
         if (problem.empty()) problem = "the expression cannot be compiled";
         return false;
     }
